@@ -1,0 +1,109 @@
+//! How to run a computation: threads, progress and cancellation; never what to compute.
+
+use std::ops::ControlFlow;
+use thiserror::Error;
+
+/// The caller asked for the computation to stop; nothing was returned.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("cancelled")]
+pub struct Cancelled;
+
+/// A thread pool could not be started.
+#[derive(Debug, Error)]
+#[error("could not start {threads} threads: {reason}")]
+pub struct ThreadsError {
+    /// The number of threads asked for.
+    pub threads: usize,
+    /// What the operating system said.
+    pub reason: String,
+}
+
+/// Called from time to time with the finished part (0 to 1); [`ControlFlow::Break`] cancels.
+pub type Watch<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
+
+/// Where a computation runs and who watches it.
+///
+/// The threads belong to this value and end with it: a program that hosts heatpath as a library or
+/// plugin keeps its own threads, and no process-wide state is changed. Results do not depend on
+/// the number of threads.
+#[derive(Default)]
+pub struct Exec<'a> {
+    pool: Option<rayon::ThreadPool>,
+    watch: Option<Box<Watch<'a>>>,
+}
+
+impl<'a> Exec<'a> {
+    /// Runs on `threads` threads of its own; 0 takes one per processor.
+    ///
+    /// # Errors
+    /// The operating system refused to start them.
+    pub fn new(threads: usize) -> Result<Self, ThreadsError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("heatpath-{i}"))
+            .build()
+            .map_err(|error| ThreadsError { threads, reason: error.to_string() })?;
+        Ok(Self { pool: Some(pool), watch: None })
+    }
+
+    /// Runs on the calling thread alone.
+    #[must_use]
+    pub fn single_threaded() -> Self {
+        Self::default()
+    }
+
+    /// Calls `watch` with the finished part (0 to 1) every few milliseconds to seconds, always on
+    /// the calling thread, and cancels when it answers [`ControlFlow::Break`].
+    #[must_use]
+    pub fn with_watch(mut self, watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a) -> Self {
+        self.watch = Some(Box::new(watch));
+        self
+    }
+
+    /// The number of threads.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Reports the finished part and asks whether to go on.
+    pub(crate) fn report(&self, finished: f64) -> Result<(), Cancelled> {
+        match self.watch.as_ref().map(|watch| watch(finished)) {
+            Some(ControlFlow::Break(())) => Err(Cancelled),
+            _ => Ok(()),
+        }
+    }
+
+    /// Calls `work` once for each of `items`, in parallel; each thread makes its own `scratch`.
+    pub(crate) fn for_each<T: Send, S>(
+        &self,
+        items: &mut [T],
+        scratch: impl Fn() -> S + Sync + Send,
+        work: impl Fn(&mut S, &mut T) + Sync + Send,
+    ) {
+        use rayon::prelude::*;
+        match &self.pool {
+            Some(pool) => pool.install(|| items.par_iter_mut().for_each_init(scratch, work)),
+            None => {
+                let mut scratch = scratch();
+                items.iter_mut().for_each(|item| work(&mut scratch, item));
+            }
+        }
+    }
+}
+
+/// The vector instructions this build uses, by their usual name.
+#[must_use]
+pub fn simd_level() -> &'static str {
+    if cfg!(target_feature = "avx512f") {
+        "avx512"
+    } else if cfg!(target_feature = "avx2") {
+        "avx2"
+    } else if cfg!(target_feature = "sse2") {
+        "sse2"
+    } else if cfg!(target_feature = "neon") {
+        "neon"
+    } else {
+        "scalar"
+    }
+}

@@ -1,0 +1,122 @@
+//! One value per cell.
+
+use super::Shape;
+use thiserror::Error;
+
+/// One value per cell of a regular grid: an image (`D = 2`) or a volume (`D = 3`).
+///
+/// Values are stored with x fastest, as described at [`Shape`].
+///
+/// ```
+/// use heatpath_core::grid::{Grid, Shape};
+///
+/// let picture = Grid::from_values(Shape::new([3, 2])?, vec![1, 2, 3, 4, 5, 6])?;
+/// assert_eq!(picture[[2, 1]], 6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid<T, const D: usize> {
+    shape: Shape<D>,
+    values: Vec<T>,
+}
+
+/// The number of values does not match the number of cells.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("a grid of {expected} cells was given {given} values")]
+pub struct LengthError {
+    /// The number of cells.
+    pub expected: usize,
+    /// The number of values.
+    pub given: usize,
+}
+
+/// A value is infinite or not a number.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("the value at {index:?} is {value}; all values must be finite numbers")]
+pub struct NotFinite {
+    /// The index of the first such cell.
+    pub index: Vec<usize>,
+    /// Its value.
+    pub value: f64,
+}
+
+impl<T, const D: usize> Grid<T, D> {
+    /// A grid whose cells hold `values`, x fastest.
+    ///
+    /// # Errors
+    /// The number of values differs from the number of cells.
+    pub fn from_values(shape: Shape<D>, values: Vec<T>) -> Result<Self, LengthError> {
+        let (expected, given) = (shape.cells(), values.len());
+        if expected == given {
+            Ok(Self { shape, values })
+        } else {
+            Err(LengthError { expected, given })
+        }
+    }
+
+    /// A grid whose cell at index `i` holds `value(i)`.
+    pub fn from_fn(shape: Shape<D>, mut value: impl FnMut([usize; D]) -> T) -> Self {
+        let values = (0..shape.cells()).map(|position| value(shape.index(position))).collect();
+        Self { shape, values }
+    }
+
+    /// The size and spacing.
+    #[must_use]
+    pub fn shape(&self) -> &Shape<D> {
+        &self.shape
+    }
+
+    /// The values, x fastest.
+    #[must_use]
+    pub fn values(&self) -> &[T] {
+        &self.values
+    }
+
+    /// The values, x fastest, to be changed in place.
+    #[must_use]
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
+    /// Gives up the grid for its values.
+    #[must_use]
+    pub fn into_values(self) -> Vec<T> {
+        self.values
+    }
+
+    /// The grid of `change(value)` for each value.
+    #[must_use]
+    pub fn map<U>(&self, change: impl FnMut(&T) -> U) -> Grid<U, D> {
+        Grid { shape: self.shape, values: self.values.iter().map(change).collect() }
+    }
+}
+
+impl<const D: usize> Grid<f64, D> {
+    /// Checks that every value is a finite number.
+    ///
+    /// # Errors
+    /// Names the first cell that is not.
+    pub fn check_finite(&self) -> Result<(), NotFinite> {
+        match self.values.iter().position(|value| !value.is_finite()) {
+            Some(position) => Err(NotFinite {
+                index: self.shape.index(position).to_vec(),
+                value: self.values[position],
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl<T, const D: usize> std::ops::Index<[usize; D]> for Grid<T, D> {
+    type Output = T;
+
+    fn index(&self, index: [usize; D]) -> &T {
+        &self.values[self.shape.position(index)]
+    }
+}
+
+impl<T, const D: usize> std::ops::IndexMut<[usize; D]> for Grid<T, D> {
+    fn index_mut(&mut self, index: [usize; D]) -> &mut T {
+        &mut self.values[self.shape.position(index)]
+    }
+}

@@ -1,0 +1,258 @@
+//! Explicit Euler: `u' = u + step k div(D grad u)`.
+//!
+//! What is computed stands in `kernel.rs`, one row at a time. In which order, on which thread and
+//! in which range of numbers stands in `schedule.rs` and `scaled.rs`, and changes no bit of it.
+
+mod kernel;
+mod scaled;
+mod schedule;
+
+use super::operator::{FaceMean, Operator};
+use super::{Heat, shares};
+use crate::exec::{Cancelled, Exec};
+use crate::grid::medium::Medium;
+use crate::grid::{Grid, Sources};
+use thiserror::Error;
+
+/// How long heat flows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Duration {
+    /// Twice as many steps as the longest side has cells, so that heat can cross any open picture
+    /// (the paper's choice for voting; heat moves one cell a step).
+    #[default]
+    TwiceLongestSide,
+    /// This many steps.
+    Iterations(usize),
+    /// This much time, in cell units (multiples of the smallest spacing squared); the step is
+    /// shortened so that a whole number of steps fills it.
+    Time(f64),
+}
+
+/// The length of a time step, in cell units (multiples of the smallest spacing squared).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// Exactly this. The default is 0.2, the paper's choice, stable for k D <= 1 in 2-D.
+    Fixed(f64),
+    /// [`Step::SAFE_FRACTION`] of the largest stable step of the medium.
+    Auto,
+}
+
+impl Step {
+    /// The part of the largest stable step that [`Step::Auto`] takes. It makes the automatic step
+    /// of the uniform 2-D medium the paper's 0.2.
+    pub const SAFE_FRACTION: f64 = 0.8;
+    /// The paper's step.
+    pub const DEFAULT: f64 = 0.2;
+}
+
+impl Default for Step {
+    fn default() -> Self {
+        Self::Fixed(Self::DEFAULT)
+    }
+}
+
+/// The parameters of [`Explicit`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HeatOptions {
+    /// How long heat flows.
+    pub duration: Duration,
+    /// The length of a time step.
+    pub step: Step,
+    /// How the diffusion coefficient of a face is made from its two cells.
+    pub face_mean: FaceMean,
+}
+
+/// Why heat cannot flow as asked.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum HeatError {
+    /// The step would make the scheme unstable.
+    #[error(
+        "the time step {step} is too large: the largest stable step in this medium is \
+         {largest_stable}"
+    )]
+    StepTooLarge {
+        /// The step asked for, in cell units.
+        step: f64,
+        /// The largest stable step, in cell units.
+        largest_stable: f64,
+    },
+    /// The step is zero, negative or not a number.
+    #[error("the time step is {0}; it must be a positive finite number")]
+    Step(f64),
+    /// The time is zero, negative or not a number.
+    #[error("the time is {0}; it must be a positive finite number")]
+    Time(f64),
+    /// There are no iterations.
+    #[error("the number of iterations is 0; at least 1 is needed")]
+    Iterations,
+    /// The caller cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Explicit heat in one medium, prepared once for any number of sources.
+///
+/// ```
+/// use heatpath_core::Exec;
+/// use heatpath_core::grid::heat::{Explicit, HeatOptions};
+/// use heatpath_core::grid::{Shape, Sources, medium};
+///
+/// let medium = medium::uniform(Shape::new([64, 48])?);
+/// let explicit = Explicit::new(&medium, HeatOptions::default())?;
+/// let sources = Sources::new(&[[20.0, 20.0]], medium.mask())?;
+/// let heat = explicit.flow(&sources, &Exec::single_threaded())?;
+/// assert_eq!(heat.iterations(), 128);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Memory while heat flows, beyond the medium: 8 bytes a cell for each axis (conductances), 8 for
+/// k if the medium has one, and 24 for two copies of u and its sum.
+#[derive(Debug)]
+pub struct Explicit<'a, const D: usize> {
+    medium: &'a Medium<D>,
+    operator: Operator<D>,
+    iterations: usize,
+    step: f64,
+}
+
+impl<'a, const D: usize> Explicit<'a, D> {
+    /// Prepares heat in `medium`.
+    ///
+    /// # Errors
+    /// A step above the largest stable one, or a step, time or number of iterations that is not
+    /// positive.
+    pub fn new(medium: &'a Medium<D>, options: HeatOptions) -> Result<Self, HeatError> {
+        let operator = Operator::new(medium, options.face_mean);
+        let largest_stable = operator.largest_stable_step(medium.shape());
+        let step = match options.step {
+            Step::Fixed(step) if !(step.is_finite() && step > 0.0) => {
+                return Err(HeatError::Step(step));
+            }
+            Step::Fixed(step) if step > largest_stable => {
+                return Err(HeatError::StepTooLarge { step, largest_stable });
+            }
+            Step::Fixed(step) => step,
+            // Where nothing can flow any step does.
+            Step::Auto if largest_stable.is_infinite() => Step::DEFAULT,
+            Step::Auto => Step::SAFE_FRACTION * largest_stable,
+        };
+        let (iterations, step) = match options.duration {
+            Duration::TwiceLongestSide => (2 * medium.shape().longest_side(), step),
+            Duration::Iterations(0) => return Err(HeatError::Iterations),
+            Duration::Iterations(iterations) => (iterations, step),
+            Duration::Time(time) if !(time.is_finite() && time > 0.0) => {
+                return Err(HeatError::Time(time));
+            }
+            Duration::Time(time) => {
+                let iterations = (time / step).ceil();
+                (iterations as usize, time / iterations)
+            }
+        };
+        Ok(Self { medium, operator, iterations, step })
+    }
+
+    /// The number of time steps.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// The time step in cell units.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Lets heat flow from `sources`, which all begin with u = 1 (shared between cells if a source
+    /// lies between them).
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
+        let amounts = vec![1.0; sources.points().len()];
+        self.flow_amounts(sources, amounts, &mut |finished| exec.report(finished), exec)
+    }
+
+    /// Lets heat flow from `sources` with amounts that make them equally warm at the end.
+    ///
+    /// A source in a fast medium loses its heat sooner than one in a slow medium; with equal
+    /// amounts it would end up colder and seem further away. With one source this is
+    /// [`flow`](Self::flow); with several, heat flows twice: the first time to find the amounts.
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    pub fn flow_balanced(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
+        let count = sources.points().len();
+        if count == 1 {
+            return self.flow(sources, exec);
+        }
+        let first_half = &mut |finished: f64| exec.report(0.5 * finished);
+        let heat = self.flow_amounts(sources, vec![1.0; count], first_half, exec)?;
+        let ln_temperatures = heat.ln_temperature_at_sources();
+        let hottest = ln_temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let amounts = ln_temperatures.iter().map(|ln| (hottest - ln).exp()).collect();
+        let second_half = &mut |finished: f64| exec.report(0.5 + 0.5 * finished);
+        self.flow_amounts(sources, amounts, second_half, exec)
+    }
+
+    fn flow_amounts(
+        &self,
+        sources: &Sources<D>,
+        amounts: Vec<f64>,
+        report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
+        exec: &Exec,
+    ) -> Result<Heat<D>, HeatError> {
+        let (shape, mask) = (*self.medium.shape(), self.medium.mask());
+        let shares: Vec<(usize, f64)> = sources
+            .points()
+            .iter()
+            .zip(&amounts)
+            .flat_map(|(&point, amount)| {
+                shares(mask, point).into_iter().map(move |(cell, weight)| (cell, amount * weight))
+            })
+            .collect();
+        let steps = schedule::Steps { operator: &self.operator, step: self.step };
+        let mut fields = (Vec::new(), Vec::new());
+        for &edge in schedule::tile_edges(D) {
+            let mut heat = schedule::Tiles::new(&shape, edge);
+            shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
+            fields = heat.march(&steps, self.iterations, report, exec)?;
+            if !self.has_lost_heat(&fields.0, &shares) {
+                break;
+            }
+        }
+        let (ln_temperature, ln_exposure) = fields;
+        let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
+        Ok(Heat {
+            sources: sources.clone(),
+            mask: mask.clone(),
+            amounts,
+            speeds_sq: sources.points().iter().map(|p| self.medium.speed_sq(cell(p))).collect(),
+            ln_temperature: Grid::from_fn(shape, |i| ln_temperature[shape.position(i)]),
+            ln_exposure: Grid::from_fn(shape, |i| ln_exposure[shape.position(i)]),
+            iterations: self.iterations,
+            step: self.step,
+        })
+    }
+
+    /// Whether a cell within reach has no heat: its tile had to hold too wide a range of values.
+    fn has_lost_heat(&self, ln_temperature: &[f64], shares: &[(usize, f64)]) -> bool {
+        let mask = self.medium.mask();
+        let cold = |cell: usize| ln_temperature[cell] == f64::NEG_INFINITY;
+        if !(0..ln_temperature.len()).any(|cell| cold(cell) && mask.is_open(cell)) {
+            return false;
+        }
+        let mut met = vec![false; ln_temperature.len()];
+        let mut front: Vec<usize> = shares.iter().map(|&(cell, _)| cell).collect();
+        // Heat moves one cell a step.
+        for _ in 0..=self.iterations {
+            front.retain(|&cell| !std::mem::replace(&mut met[cell], true));
+            if front.is_empty() || front.iter().any(|&cell| cold(cell)) {
+                break;
+            }
+            let next = |&cell: &usize| self.medium.shape().neighbours(cell);
+            front = front.iter().flat_map(next).filter(|&n| mask.is_open(n) && !met[n]).collect();
+        }
+        front.iter().any(|&cell| cold(cell) && met[cell])
+    }
+}

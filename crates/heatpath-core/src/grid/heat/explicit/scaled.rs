@@ -1,0 +1,136 @@
+//! Numbers beyond the range of f64: one power of two for a whole block of values.
+//!
+//! Heat falls by hundreds or thousands of orders of magnitude across a picture, but only by some
+//! tens from a cell to the next. A block of neighbouring cells therefore shares one exponent.
+//! Multiplying by a power of two is exact, so the bits are those of a float without limits, as long
+//! as the values of one block differ by less than [`RANGE`] powers of two.
+
+/// The largest value of a block is kept near two to this power, with room above for sums.
+const TOP: i32 = 960;
+
+/// Values smaller than two to this power are dropped: their neighbours may have been lost below
+/// the smallest f64, so they could be wrong.
+const BOTTOM: i32 = -960;
+
+/// How many powers of two the values of one block may span.
+#[cfg(test)]
+pub(super) const RANGE: i32 = TOP - BOTTOM;
+
+/// Values that stand for `value * 2^exponent`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scaled {
+    pub(super) exponent: i32,
+    pub(super) values: Vec<f64>,
+}
+
+impl Scaled {
+    /// No heat, scaled for values near one.
+    pub(super) fn zeros(len: usize) -> Self {
+        Self { exponent: -TOP, values: vec![0.0; len] }
+    }
+
+    /// Adds `amount` to the value at `i`.
+    pub(super) fn add_at(&mut self, i: usize, amount: f64) {
+        self.values[i] += Scale::new(-self.exponent).apply(amount);
+    }
+
+    /// Adds `other * 2^exponent`, value by value, and keeps the larger of the two exponents.
+    pub(super) fn add(&mut self, other: &[f64], exponent: i32) {
+        if self.values.is_empty() {
+            *self = Self { exponent, values: vec![0.0; other.len()] };
+        }
+        let larger = self.exponent.max(exponent);
+        let (scale_self, scale_other) =
+            (Scale::new(self.exponent - larger), Scale::new(exponent - larger));
+        for (value, other) in self.values.iter_mut().zip(other) {
+            *value = scale_self.apply(*value) + scale_other.apply(*other);
+        }
+        self.exponent = larger;
+    }
+
+    /// The natural logarithm of the value at `i`, minus infinity for zero.
+    pub(super) fn ln(&self, i: usize) -> f64 {
+        trusted(self.values[i]).ln() + f64::from(self.exponent) * std::f64::consts::LN_2
+    }
+}
+
+/// Zero in place of a value too small to be trusted.
+pub(super) fn trusted(value: f64) -> f64 {
+    const SMALLEST: f64 = power_of_two(BOTTOM);
+    if value < SMALLEST { 0.0 } else { value }
+}
+
+/// The exponent for a block whose largest value is `value * 2^exponent`.
+pub(super) fn exponent_for(value: f64, exponent: i32) -> i32 {
+    exponent + exponent_of(value) - TOP
+}
+
+/// The exponent of a positive f64: `value` is at least two to this power and less than twice that
+/// (subnormal values count as the smallest normal one).
+pub(super) fn exponent_of(value: f64) -> i32 {
+    (value.to_bits() >> 52) as i32 - 1023
+}
+
+/// A multiplication by a power of two that may itself be out of range.
+#[derive(Clone, Copy)]
+pub(super) struct Scale {
+    first: f64,
+    second: f64,
+}
+
+impl Scale {
+    pub(super) fn new(exponent: i32) -> Self {
+        if exponent < -2044 {
+            return Self { first: 0.0, second: 0.0 };
+        }
+        // Two factors reach from the smallest f64 to the largest.
+        let half = exponent.min(2044) / 2;
+        let rest = exponent.min(2044) - half;
+        Self { first: power_of_two(half), second: power_of_two(rest) }
+    }
+
+    pub(super) fn apply(self, value: f64) -> f64 {
+        value * self.first * self.second
+    }
+}
+
+/// Two to the power `exponent`, which must be that of a normal f64 (-1022 to 1023).
+const fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_exact_and_never_overflow_half_way() {
+        assert_eq!(Scale::new(3).apply(1.5), 12.0);
+        assert_eq!(Scale::new(1760).apply(power_of_two(-900)), power_of_two(860));
+        assert_eq!(Scale::new(-1900).apply(power_of_two(960)), power_of_two(-940));
+        assert_eq!(Scale::new(i32::MIN / 2).apply(power_of_two(1000)), 0.0);
+        assert_eq!(Scale::new(0).apply(0.1), 0.1);
+    }
+
+    #[test]
+    fn sums_keep_the_larger_range() {
+        let mut sum = Scaled { exponent: -5000, values: vec![3.0, 0.0] };
+        sum.add(&[1.0, 2.0], -4999);
+        assert_eq!(sum.exponent, -4999);
+        assert_eq!(sum.values, [2.5, 2.0]);
+        sum.add(&[1.0, 0.0], -9000);
+        assert_eq!(sum.values, [2.5, 2.0]);
+        assert!((sum.ln(1) + 4998.0 * std::f64::consts::LN_2).abs() < 1e-12);
+        let mut zero = Scaled::default();
+        zero.add(&[1.0], -70);
+        assert_eq!((zero.exponent, zero.values[0]), (-70, 1.0));
+    }
+
+    #[test]
+    fn the_largest_value_of_a_block_is_kept_near_the_top() {
+        let exponent = exponent_for(3.0, -4000);
+        let kept = Scale::new(-4000 - exponent).apply(3.0);
+        assert_eq!(exponent_of(kept), TOP);
+        assert_eq!(RANGE, 1920);
+    }
+}

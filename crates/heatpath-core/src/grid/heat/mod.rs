@@ -1,0 +1,120 @@
+//! Heat: `u_t = k div(D grad u)` from point sources.
+//!
+//! [`Explicit`] marches in time. Its result, [`Heat`], holds two fields in logarithms, because heat
+//! decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
+//! temperature u at the end, and the exposure, which is u added up over all steps.
+//!
+//! Time and step are given in cell units: multiples of the smallest spacing squared, so that they
+//! do not depend on the unit of length.
+
+mod explicit;
+mod operator;
+
+pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
+pub use operator::FaceMean;
+
+use super::source::shares;
+use super::{Grid, Mask, Shape, Sources};
+
+/// What the heat has done.
+#[derive(Clone, Debug)]
+pub struct Heat<const D: usize> {
+    pub(crate) sources: Sources<D>,
+    pub(crate) mask: Mask<D>,
+    /// The amount of heat that each source began with.
+    pub(crate) amounts: Vec<f64>,
+    /// The squared speed at each source.
+    pub(crate) speeds_sq: Vec<f64>,
+    pub(crate) ln_temperature: Grid<f64, D>,
+    pub(crate) ln_exposure: Grid<f64, D>,
+    pub(crate) iterations: usize,
+    pub(crate) step: f64,
+}
+
+impl<const D: usize> Heat<D> {
+    /// The size and spacing.
+    #[must_use]
+    pub fn shape(&self) -> &Shape<D> {
+        self.mask.shape()
+    }
+
+    /// The sources.
+    #[must_use]
+    pub fn sources(&self) -> &Sources<D> {
+        &self.sources
+    }
+
+    /// Which cells are open.
+    #[must_use]
+    pub fn mask(&self) -> &Mask<D> {
+        &self.mask
+    }
+
+    /// The natural logarithm of the temperature u at the end, minus infinity where no heat is.
+    #[must_use]
+    pub fn ln_temperature(&self) -> &Grid<f64, D> {
+        &self.ln_temperature
+    }
+
+    /// The natural logarithm of the exposure, the sum of u over the start and every step.
+    ///
+    /// Unlike the temperature, whose maximum drifts away from the source into the fastest or
+    /// narrowest region, the exposure E has no maximum but the sources: adding up the scheme
+    /// `u' = u + step L u` over all steps gives `step L E = u_end - u_start`, with one step more in
+    /// the end, which is positive away from the sources. A cell with `L E > 0` is below the mean of
+    /// its neighbours, so each has a neighbour with more exposure. Paths climb it and cannot stop
+    /// short. Its logarithm has the same limit as that of u in Varadhan's formula.
+    #[must_use]
+    pub fn ln_exposure(&self) -> &Grid<f64, D> {
+        &self.ln_exposure
+    }
+
+    /// The number of time steps.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// The time step in cell units.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The end time in cell units.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.step * self.iterations as f64
+    }
+
+    /// The logarithm of the temperature at each source.
+    #[must_use]
+    pub fn ln_temperature_at_sources(&self) -> Vec<f64> {
+        self.sources.points().iter().map(|&point| self.ln_temperature_at(point)).collect()
+    }
+
+    /// The logarithm of the temperature at `point`, interpolated to second order.
+    ///
+    /// Around a source `ln u` is a paraboloid, which linear interpolation would put too low by
+    /// half the second difference times `f (1 - f)` along each axis.
+    fn ln_temperature_at(&self, point: [f64; D]) -> f64 {
+        let field = self.ln_temperature.values();
+        let linear: f64 =
+            shares(&self.mask, point).into_iter().map(|(cell, weight)| weight * field[cell]).sum();
+        let index = self.shape().cell_at(point);
+        let centre = self.shape().position(index);
+        let bend: f64 = (0..D)
+            .map(|axis| {
+                let fraction = point[axis] - point[axis].floor();
+                let inside = index[axis] > 0 && index[axis] + 1 < self.shape().size()[axis];
+                if !inside || fraction == 0.0 {
+                    return 0.0;
+                }
+                let stride = self.shape().stride(axis);
+                let second = field[centre - stride] - 2.0 * field[centre] + field[centre + stride];
+                if second.is_finite() { 0.5 * fraction * (1.0 - fraction) * second } else { 0.0 }
+            })
+            .sum();
+        linear - bend
+    }
+}

@@ -1,0 +1,21 @@
+//! Images (2-D) and volumes (3-D).
+//!
+//! The rooms stand in the order in which data passes through them: a [`Grid`] of grey values
+//! becomes a [`medium`], the medium carries [`heat`], the heat is read as a [`distance`], and a
+//! [`path`] descends to a source.
+
+pub mod distance;
+mod field;
+pub mod filter;
+pub mod heat;
+mod mask;
+pub mod medium;
+pub mod path;
+mod sample;
+mod shape;
+mod source;
+
+pub use field::{Grid, LengthError, NotFinite};
+pub use mask::Mask;
+pub use shape::{Shape, ShapeError};
+pub use source::{PointError, Sources, check_points};

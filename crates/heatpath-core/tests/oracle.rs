@@ -1,0 +1,231 @@
+//! The scheduled engine against the simplest one: plain sweeps over the whole grid, formula first.
+
+use heatpath_core::Exec;
+use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
+use heatpath_core::grid::medium::{self, Form, Medium};
+use heatpath_core::grid::{Grid, Mask, Shape, Sources};
+use proptest::prelude::*;
+
+/// `u' = u + step k div(D grad u)`, cell by cell, and the sum of all u.
+fn sweep<const D: usize>(
+    medium: &Medium<D>,
+    u: &mut [f64],
+    iterations: usize,
+    step: f64,
+) -> Vec<f64> {
+    let shape = *medium.shape();
+    let mut sum = u.to_vec();
+    for _ in 0..iterations {
+        let before = u.to_vec();
+        for cell in 0..shape.cells() {
+            let flux: f64 = (0..D)
+                .map(|axis| {
+                    let (stride, index) = (shape.stride(axis), shape.index(cell)[axis]);
+                    let flux = |from: usize, to: usize| {
+                        conductance(medium, axis, from, to) * (before[to] - before[from])
+                    };
+                    let last = index + 1 == shape.size()[axis];
+                    let after = if last { 0.0 } else { flux(cell, cell + stride) };
+                    let before = if index == 0 { 0.0 } else { flux(cell - stride, cell) };
+                    after - before
+                })
+                .fold(0.0, |sum, flux| sum + flux);
+            u[cell] += medium.factor().map_or(step, |k| step * k.values()[cell]) * flux;
+        }
+        sum.iter_mut().zip(&*u).for_each(|(sum, u)| *sum += u);
+    }
+    sum
+}
+
+fn conductance<const D: usize>(medium: &Medium<D>, axis: usize, a: usize, b: usize) -> f64 {
+    let shape = medium.shape();
+    let open = medium.mask().is_open(a) && medium.mask().is_open(b);
+    let mean = medium.diffusion().map_or(1.0, |d| 0.5 * (d.values()[a] + d.values()[b]));
+    let scale = (shape.smallest_spacing() / shape.spacing()[axis]).powi(2);
+    if open { scale * mean } else { 0.0 }
+}
+
+fn engine<const D: usize>(medium: &Medium<D>, source: [f64; D], n: usize, exec: &Exec) -> Heat<D> {
+    let options = HeatOptions {
+        duration: Duration::Iterations(n),
+        step: Step::Fixed(0.15),
+        ..HeatOptions::default()
+    };
+    let sources = Sources::new(&[source], medium.mask()).unwrap();
+    Explicit::new(medium, options).unwrap().flow(&sources, exec).unwrap()
+}
+
+fn assert_agrees<const D: usize>(medium: &Medium<D>, source: [usize; D], n: usize, exec: &Exec) {
+    let shape = *medium.shape();
+    let heat = engine(medium, source.map(|i| i as f64), n, exec);
+    let mut u = vec![0.0; shape.cells()];
+    u[shape.position(source)] = 1.0;
+    let sum = sweep(medium, &mut u, n, heat.step());
+    for cell in 0..shape.cells() {
+        // Below this the plain sweep has lost bits, the engine has not.
+        if u[cell] > 1e-290 {
+            let ln_u = heat.ln_temperature().values()[cell];
+            assert!((ln_u - u[cell].ln()).abs() <= 1e-13 * (1.0 + ln_u.abs()), "u of cell {cell}");
+            let ln_sum = heat.ln_exposure().values()[cell];
+            assert!(
+                (ln_sum - sum[cell].ln()).abs() < 1e-12 * (1.0 + ln_sum.abs()),
+                "sum of {cell}"
+            );
+        } else if u[cell] == 0.0 && n < 150 {
+            assert_eq!(heat.ln_temperature().values()[cell], f64::NEG_INFINITY, "cell {cell}");
+        }
+    }
+}
+
+/// A field that varies from cell to cell, with no pattern that a tile could hide behind.
+fn rough<const D: usize>(shape: Shape<D>, low: f64) -> Grid<f64, D> {
+    let mut state = 0x2545_f491_4f6c_dd1d_u64;
+    Grid::from_fn(shape, |_| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        low + (1.0 - low) * (state >> 11) as f64 / (1_u64 << 53) as f64
+    })
+}
+
+#[test]
+fn plane_with_varying_diffusion() {
+    let shape = Shape::with_spacing([150, 131], [1.0, 1.5]).unwrap();
+    let medium = medium::given(rough(shape, 0.05), Form::Divergence).unwrap();
+    for n in [1, 7, 8, 9, 100] {
+        assert_agrees(&medium, [70, 64], n, &Exec::new(2).unwrap());
+    }
+}
+
+#[test]
+fn plane_with_varying_factor_and_walls() {
+    let shape = Shape::new([131, 90]).unwrap();
+    let walls = Grid::from_fn(shape, |[x, y]| !(x == 63 && y > 10) && (x + 2 * y) % 17 != 0);
+    let medium = medium::given(rough(shape, 0.1), Form::Pointwise)
+        .unwrap()
+        .with_walls(Mask::new(walls))
+        .unwrap();
+    assert_agrees(&medium, [20, 42], 200, &Exec::single_threaded());
+}
+
+#[test]
+fn combined_medium() {
+    let image = rough(Shape::new([80, 70]).unwrap(), 0.8);
+    let perona_malik = medium::PeronaMalikOptions { contrast: 0.2, ..Default::default() };
+    let medium =
+        medium::combined(&image, &[0.9], medium::ConductivityOptions::default(), perona_malik);
+    assert_agrees(&medium.unwrap(), [79, 0], 60, &Exec::single_threaded());
+}
+
+#[test]
+fn space() {
+    let shape = Shape::with_spacing([40, 29, 51], [1.0, 1.0, 2.0]).unwrap();
+    let medium = medium::given(rough(shape, 0.2), Form::Divergence).unwrap();
+    assert_agrees(&medium, [30, 3, 25], 30, &Exec::new(2).unwrap());
+}
+
+#[test]
+fn narrow_grids() {
+    for size in [[1, 1], [1, 200], [200, 1], [65, 2]] {
+        let shape = Shape::new(size).unwrap();
+        assert_agrees(&medium::uniform(shape), [0, 0], 90, &Exec::single_threaded());
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_threads() {
+    let shape = Shape::new([300, 200]).unwrap();
+    let medium = medium::given(rough(shape, 1e-3), Form::Divergence).unwrap();
+    let once = engine(&medium, [10.0, 10.0], 250, &Exec::single_threaded());
+    for threads in [2, 3, 8] {
+        let again = engine(&medium, [10.0, 10.0], 250, &Exec::new(threads).unwrap());
+        assert_eq!(once.ln_temperature(), again.ln_temperature());
+        assert_eq!(once.ln_exposure(), again.ln_exposure());
+    }
+}
+
+/// A float with an exponent of its own for every cell: slow, but without limits.
+#[derive(Clone, Copy)]
+struct Wide {
+    value: f64,
+    exponent: i64,
+}
+
+impl Wide {
+    fn new(value: f64, exponent: i64) -> Self {
+        if value == 0.0 {
+            return Self { value, exponent: i64::MIN / 2 };
+        }
+        let shift = i64::from((value.to_bits() >> 52 & 0x7ff) as i32 - 1023);
+        Self { value: value * 2_f64.powi(-shift as i32), exponent: exponent + shift }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let top = self.exponent.max(other.exponent);
+        let at = |x: Self| x.value * 2_f64.powi((x.exponent - top).max(-1000) as i32);
+        Self::new(at(self) + at(other), top)
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self::new(self.value * factor, self.exponent)
+    }
+
+    fn ln(self) -> f64 {
+        self.value.ln() + self.exponent as f64 * std::f64::consts::LN_2
+    }
+}
+
+/// Far beyond the range of f64: slow media, in which u falls to exp(-8000).
+#[test]
+fn range_without_limits() {
+    let shape = Shape::new([260, 70]).unwrap();
+    for (low, high) in [(1e-3, 2e-3), (1e-2, 1.0), (1e-6, 1e-5)] {
+        let field = rough(shape, low / high).map(|v| v * high);
+        let medium = medium::given(field, Form::Divergence).unwrap();
+        let n = 520;
+        let heat = engine(&medium, [2.0, 3.0], n, &Exec::new(2).unwrap());
+        let mut u = vec![Wide::new(0.0, 0); shape.cells()];
+        u[shape.position([2, 3])] = Wide::new(1.0, 0);
+        for _ in 0..n {
+            let before = u.clone();
+            for (cell, u) in u.iter_mut().enumerate() {
+                let index = shape.index(cell);
+                let mut kept = 1.0;
+                let mut inflow = Wide::new(0.0, 0);
+                for next in shape.neighbours(cell) {
+                    let axis = usize::from(shape.index(next)[0] == index[0]);
+                    let weight = heat.step() * conductance(&medium, axis, cell, next);
+                    kept -= weight;
+                    inflow = inflow.plus(before[next].times(weight));
+                }
+                *u = before[cell].times(kept).plus(inflow);
+            }
+        }
+        let mut worst: f64 = 0.0;
+        for (cell, exact) in u.iter().enumerate() {
+            let ln_u = heat.ln_temperature().values()[cell];
+            assert!(ln_u.is_finite(), "cell {:?} was lost (medium from {low})", shape.index(cell));
+            worst = worst.max((ln_u - exact.ln()).abs() / exact.ln().abs().max(1.0));
+        }
+        let least = u.iter().map(|u| u.ln()).fold(0.0, f64::min);
+        println!("medium {low} to {high}: ln u down to {least:.0}, error {worst:.1e}");
+        // Distances are the square root of the logarithm: half of this relative error.
+        assert!(worst < 1e-6, "{worst}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+
+    #[test]
+    fn any_picture(
+        width in 1_usize..90, height in 1_usize..90, n in 1_usize..40,
+        x in 0.0..1.0, y in 0.0..1.0, low in 0.01..1.0, pointwise: bool,
+    ) {
+        let shape = Shape::new([width, height]).unwrap();
+        let form = if pointwise { Form::Pointwise } else { Form::Divergence };
+        let medium = medium::given(rough(shape, low), form).unwrap();
+        let source = [(x * width as f64) as usize, (y * height as f64) as usize];
+        assert_agrees(&medium, source, n, &Exec::single_threaded());
+    }
+}
