@@ -49,8 +49,16 @@ impl Scaled {
     }
 
     /// The natural logarithm of the value at `i`, minus infinity for zero.
+    ///
+    /// The same bits whatever the exponent of the block.
     pub(super) fn ln(&self, i: usize) -> f64 {
-        trusted(self.values[i]).ln() + f64::from(self.exponent) * std::f64::consts::LN_2
+        let value = trusted(self.values[i]);
+        if value == 0.0 {
+            return f64::NEG_INFINITY;
+        }
+        let exponent = exponent_of(value);
+        let mantissa = Scale::new(-exponent).apply(value);
+        mantissa.ln() + f64::from(exponent + self.exponent) * std::f64::consts::LN_2
     }
 }
 
