@@ -1,4 +1,5 @@
 //! Distances and paths against formulas.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};

@@ -1,4 +1,5 @@
 //! What must not change the result: turns, flips, units, and what lies out of reach.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{DistanceMap, normalized};

@@ -1,4 +1,5 @@
 //! The scheduled engine against the simplest one: plain sweeps over the whole grid, formula first.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
 use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
@@ -40,7 +41,8 @@ fn sweep<const D: usize>(
 fn conductance<const D: usize>(medium: &Medium<D>, axis: usize, a: usize, b: usize) -> f64 {
     let shape = medium.shape();
     let open = medium.mask().is_open(a) && medium.mask().is_open(b);
-    let mean = medium.diffusion().map_or(1.0, |d| 0.5 * (d.values()[a] + d.values()[b]));
+    let harmonic = |x: f64, y: f64| 2.0 * x * y / (x + y);
+    let mean = medium.diffusion().map_or(1.0, |d| harmonic(d.values()[a], d.values()[b]));
     let scale = (shape.smallest_spacing() / shape.spacing()[axis]).powi(2);
     if open { scale * mean } else { 0.0 }
 }

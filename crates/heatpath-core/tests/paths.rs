@@ -1,4 +1,5 @@
 //! Paths: where they end, how straight they are, and that they cross no wall.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::normalized;

@@ -60,6 +60,12 @@ impl<T, const D: usize> Grid<T, D> {
         Self { shape, values }
     }
 
+    /// The same values on a grid of the same size that may have another spacing.
+    pub(crate) fn with_spacing_of(self, shape: &Shape<D>) -> Self {
+        debug_assert_eq!(self.shape.size(), shape.size());
+        Self { shape: *shape, ..self }
+    }
+
     /// The size and spacing.
     #[must_use]
     pub fn shape(&self) -> &Shape<D> {

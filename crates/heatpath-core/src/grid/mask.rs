@@ -21,6 +21,11 @@ impl<const D: usize> Mask<D> {
         Self { open: Grid::from_fn(shape, |_| true) }
     }
 
+    /// The same cells of a grid of the same size that may have another spacing.
+    pub(crate) fn with_spacing_of(self, shape: &Shape<D>) -> Self {
+        Self { open: self.open.with_spacing_of(shape) }
+    }
+
     /// The size and spacing.
     #[must_use]
     pub fn shape(&self) -> &Shape<D> {

@@ -92,8 +92,7 @@ impl<const D: usize> Medium<D> {
             return Err(MediumError::MaskSize { mask: given.to_vec(), image: expected.to_vec() });
         }
         // The mask's file may not know the spacing; the image's counts.
-        let shape = *self.shape();
-        self.mask = Mask::new(Grid::from_fn(shape, |i| mask.is_open(shape.position(i))));
+        self.mask = mask.with_spacing_of(self.shape());
         Ok(self)
     }
 

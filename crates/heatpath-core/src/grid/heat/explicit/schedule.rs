@@ -288,9 +288,9 @@ impl<const D: usize> Range<D> {
         (0..count).map(move |number| {
             let mut rest = number;
             let mut row = self.low;
-            for axis in 1..D {
+            for (axis, index) in row.iter_mut().enumerate().skip(1) {
                 let length = self.high[axis] - self.low[axis];
-                row[axis] += rest % length;
+                *index += rest % length;
                 rest /= length;
             }
             row

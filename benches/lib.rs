@@ -1,0 +1,1 @@
+//! Benchmarks of heatpath, one topic a file: `cargo bench -p heatpath-benches`.

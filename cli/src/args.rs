@@ -1,0 +1,356 @@
+//! The command line, described.
+
+use clap::{ArgGroup, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Geodesic distances and minimal paths on images, by letting heat flow through them.
+///
+/// Points are pixel coordinates `x,y`: x to the right, y down, the centre of the first pixel at
+/// 0,0; fractions are allowed.
+#[derive(Debug, Parser)]
+#[command(name = "heatpath", version, after_help = EXIT_CODES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str = "\
+Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 a file cannot be read or written, 5 no answer \
+(a path did not reach a source), 130 interrupted.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Write the map of distances from the sources.
+    Distance(DistanceArgs),
+    /// Trace minimal paths from end points to the sources.
+    Path(PathArgs),
+    /// Write the medium alone (k D, the squared speed) to look at what the heat will see.
+    Medium(MediumCommandArgs),
+    /// Say what is in a picture file: size, type, range.
+    Info(InfoArgs),
+    /// Print a completion script for a shell.
+    Completions(CompletionsArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = result_group())]
+pub(crate) struct DistanceArgs {
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) sources: SourceArgs,
+    #[command(flatten)]
+    pub(crate) medium: MediumArgs,
+    #[command(flatten)]
+    pub(crate) heat: HeatArgs,
+    /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats), or .png (a
+    /// colour-mapped picture). Not reached is infinite.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = result_group(), group = ArgGroup::new("any_end").args(["end", "ends"]).required(true).multiple(true))]
+pub(crate) struct PathArgs {
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) sources: SourceArgs,
+    /// Trace a path from this point (repeatable).
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) end: Vec<[f64; 2]>,
+    /// Trace paths from the points in this CSV or JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) ends: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) medium: MediumArgs,
+    #[command(flatten)]
+    pub(crate) heat: HeatArgs,
+    /// Where the paths go: .json, .csv or .svg.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = result_group())]
+pub(crate) struct MediumCommandArgs {
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) sources: OptionalSourceArgs,
+    #[command(flatten)]
+    pub(crate) medium: MediumArgs,
+    /// Where the medium goes: .npy, .tif or .png.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct InfoArgs {
+    /// The file: PNG, JPEG, TIFF, PNM or NPY.
+    pub(crate) input: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell.
+    pub(crate) shell: clap_complete::Shell,
+}
+
+/// A command must leave something behind.
+fn result_group() -> ArgGroup {
+    ArgGroup::new("result").args(["output", "overlay", "json"]).required(true).multiple(true)
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct PictureArgs {
+    /// The picture: PNG, JPEG, TIFF, PNM or NPY.
+    pub(crate) input: PathBuf,
+    /// Which channel of a colour picture counts.
+    #[arg(long, default_value = "luma", help_heading = "Picture")]
+    pub(crate) channel: ChannelArg,
+    /// The raw values that become 0 and 1 [default: the type's full range for 8 and 16 bit, else
+    /// the picture's own].
+    #[arg(long, value_name = "LO,HI", value_parser = pair, allow_hyphen_values = true, help_heading = "Picture")]
+    pub(crate) range: Option<[f64; 2]>,
+    /// The physical size of a pixel.
+    #[arg(long, value_name = "SX,SY", value_parser = pair, default_value = "1,1", help_heading = "Picture")]
+    pub(crate) spacing: [f64; 2],
+    /// Read points and --smooth in physical units (--spacing) instead of pixels.
+    #[arg(long, help_heading = "Picture")]
+    pub(crate) physical: bool,
+    /// A picture of the same size whose zeros are walls.
+    #[arg(long, value_name = "FILE", help_heading = "Picture")]
+    pub(crate) mask: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = ArgGroup::new("any_source").args(["source", "sources"]).required(true).multiple(true))]
+pub(crate) struct SourceArgs {
+    #[command(flatten)]
+    pub(crate) points: OptionalSourceArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct OptionalSourceArgs {
+    /// Heat starts at this point (repeatable).
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) source: Vec<[f64; 2]>,
+    /// Heat starts at the points in this CSV or JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sources: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MediumArgs {
+    /// What the heat sees: equations (1), (6), (8), (10), (11) of Yang & Cohen, or a given field.
+    #[arg(long, default_value = "conductivity", help_heading = "Medium")]
+    pub(crate) medium: MediumArg,
+    /// The positive field of `--medium file`: lengths are ds / sqrt(field).
+    #[arg(long, value_name = "FILE", required_if_eq("medium", "file"), help_heading = "Medium")]
+    pub(crate) medium_file: Option<PathBuf>,
+    /// The power n of eq. (6).
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 3.0,
+        allow_negative_numbers = true,
+        help_heading = "Medium"
+    )]
+    pub(crate) power: f64,
+    /// The constant epsilon of eqs. (6) and (11).
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 1e-3,
+        allow_negative_numbers = true,
+        help_heading = "Medium"
+    )]
+    pub(crate) floor: f64,
+    /// The grey value (0 to 1) that eq. (6) compares with [default: that of the sources].
+    #[arg(long, value_name = "F", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) reference: Option<f64>,
+    /// The contrast K of eq. (8), in grey values per pixel.
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 0.03,
+        allow_negative_numbers = true,
+        help_heading = "Medium"
+    )]
+    pub(crate) contrast: f64,
+    /// The form of eq. (8).
+    #[arg(long, default_value = "exponential", help_heading = "Medium")]
+    pub(crate) edge_stop: EdgeStopArg,
+    /// With (divergence) or without (pointwise) the gradient term of eq. (9) [default: divergence;
+    /// pointwise for `--medium file`].
+    #[arg(long, help_heading = "Medium")]
+    pub(crate) form: Option<FormArg>,
+    /// Standard deviation of the Gaussian before derivatives, in pixels.
+    #[arg(
+        long,
+        value_name = "SIGMA",
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        help_heading = "Medium"
+    )]
+    pub(crate) smooth: f64,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct HeatArgs {
+    /// How many time steps [default: twice the longest side].
+    #[arg(long, value_name = "N", conflicts_with = "time", help_heading = "Heat")]
+    pub(crate) iterations: Option<usize>,
+    /// How long heat flows, in pixels squared.
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Heat")]
+    pub(crate) time: Option<f64>,
+    /// The time step in pixels squared, or `auto` for a safe part of the largest stable one.
+    #[arg(long, value_name = "TAU", value_parser = step, allow_negative_numbers = true, default_value = "0.2", help_heading = "Heat")]
+    pub(crate) step: StepArg,
+    /// The mean that makes the coefficient of a face from those of its two pixels.
+    #[arg(long, default_value = "harmonic", help_heading = "Heat")]
+    pub(crate) face_mean: FaceMeanArg,
+    /// How heat is read as a distance.
+    #[arg(long, default_value = "normalized", help_heading = "Heat")]
+    pub(crate) estimator: EstimatorArg,
+    /// How many threads work [default: one per processor].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        hide_default_value = true,
+        help_heading = "Heat"
+    )]
+    pub(crate) threads: usize,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct OutputArgs {
+    /// A picture of the result on the input (.png).
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) overlay: Option<PathBuf>,
+    /// The format of --output [default: as the file's ending].
+    #[arg(long, value_name = "ENDING", help_heading = "Output")]
+    pub(crate) format: Option<String>,
+    /// Print one JSON object on standard output.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// No progress and no messages but errors.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) quiet: bool,
+    /// Overwrite existing files.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) force: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum ChannelArg {
+    Red,
+    Green,
+    Blue,
+    Luma,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum MediumArg {
+    /// The same everywhere, eq. (1).
+    Uniform,
+    /// Grey values like the source's, eq. (6).
+    Conductivity,
+    /// Regions without edges, eq. (8).
+    PeronaMalik,
+    /// Grey values and regions, eq. (10).
+    Combined,
+    /// Edges and thin lines, eq. (11).
+    Edges,
+    /// The field in --medium-file.
+    File,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum EdgeStopArg {
+    /// exp(-(g/K)^2)
+    Exponential,
+    /// 1 / (1 + (g/K)^2)
+    Rational,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum FormArg {
+    Divergence,
+    Pointwise,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum FaceMeanArg {
+    Arithmetic,
+    Harmonic,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum EstimatorArg {
+    /// sqrt(-4 t log u) as eq. (3) prints it: for comparisons, too long by a known amount.
+    Varadhan,
+    /// sqrt(-4 t log(u / u(source))): for lengths.
+    Normalized,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum StepArg {
+    Auto,
+    Fixed(f64),
+}
+
+fn step(text: &str) -> Result<StepArg, String> {
+    match text {
+        "auto" => Ok(StepArg::Auto),
+        _ => text.parse().map(StepArg::Fixed).map_err(|_| "expected a number or `auto`".to_owned()),
+    }
+}
+
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    text.split(',').map(|part| part.trim().parse().ok()).collect()
+}
+
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let pair = numbers(text).and_then(|numbers| numbers.try_into().ok());
+    pair.ok_or_else(|| "expected two numbers with a comma between them".to_owned())
+}
+
+fn point(text: &str) -> Result<[f64; 2], String> {
+    match numbers(text).as_deref() {
+        Some(&[x, y]) => Ok([x, y]),
+        Some([_, _, _]) => Err("a point in a picture is x,y; this one has three".to_owned()),
+        _ => Err("expected a point x,y".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_description_is_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn points_are_two_numbers() {
+        assert_eq!(point("1.5,-2"), Ok([1.5, -2.0]));
+        assert_eq!(point(" 1 , 2 "), Ok([1.0, 2.0]));
+        for bad in ["", "1", "1,2,3", "a,b", "1;2", "1,"] {
+            assert!(point(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What went wrong, and the exit code for it.
+
+use heatpath_core::exec::ThreadsError;
+use heatpath_core::grid::heat::HeatError;
+use heatpath_core::grid::medium::MediumError;
+use heatpath_core::grid::{PointError, ShapeError};
+use heatpath_io::{ReadError, WriteError};
+use std::fmt;
+use std::process::ExitCode;
+
+/// A reason to stop, told in one line.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    kind: Kind,
+    message: String,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Usage = 2,
+    BadInput = 3,
+    File = 4,
+    NoAnswer = 5,
+    Interrupted = 130,
+}
+
+impl Failure {
+    /// The command line asks for what cannot be.
+    pub(crate) fn usage(message: impl fmt::Display) -> Self {
+        Self::new(Kind::Usage, &message)
+    }
+
+    /// The input cannot be used.
+    pub(crate) fn bad_input(message: impl fmt::Display) -> Self {
+        Self::new(Kind::BadInput, &message)
+    }
+
+    /// A file cannot be read or written.
+    pub(crate) fn file(message: impl fmt::Display) -> Self {
+        Self::new(Kind::File, &message)
+    }
+
+    /// There is no answer, or only a part of it.
+    pub(crate) fn no_answer(message: impl fmt::Display) -> Self {
+        Self::new(Kind::NoAnswer, &message)
+    }
+
+    fn new(kind: Kind, message: &dyn fmt::Display) -> Self {
+        Self { kind, message: message.to_string() }
+    }
+
+    pub(crate) fn code(&self) -> ExitCode {
+        ExitCode::from(self.kind as u8)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        if error.is_access() { Self::file(error) } else { Self::bad_input(error) }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::Ending { .. } => Self::usage(error),
+            WriteError::Exists { .. } => Self::file(format!("{error}; --force overwrites it")),
+            _ => Self::file(error),
+        }
+    }
+}
+
+impl From<ShapeError> for Failure {
+    fn from(error: ShapeError) -> Self {
+        Self::usage(error)
+    }
+}
+
+impl From<MediumError> for Failure {
+    fn from(error: MediumError) -> Self {
+        match error {
+            MediumError::Parameter { .. } | MediumError::Smoothing(_) => Self::usage(error),
+            _ => Self::bad_input(error),
+        }
+    }
+}
+
+impl From<PointError> for Failure {
+    fn from(error: PointError) -> Self {
+        Self::bad_input(error)
+    }
+}
+
+impl From<HeatError> for Failure {
+    fn from(error: HeatError) -> Self {
+        match error {
+            HeatError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            HeatError::StepTooLarge { .. } => {
+                Self::bad_input(format!("{error}; `--step auto` chooses one"))
+            }
+            _ => Self::usage(error),
+        }
+    }
+}
+
+impl From<ThreadsError> for Failure {
+    fn from(error: ThreadsError) -> Self {
+        Self::usage(error)
+    }
+}

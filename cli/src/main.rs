@@ -1,0 +1,37 @@
+//! The `heatpath` command.
+//!
+//! `args.rs` describes the command line, each subcommand has a file with a function of its name,
+//! and what several of them need stands beside: what is read (`input.rs`), the heat with its
+//! progress bar (`heat.rs`), what is written (`output.rs`) and what went wrong (`failure.rs`).
+
+mod args;
+mod completions;
+mod distance;
+mod failure;
+mod heat;
+mod info;
+mod input;
+mod medium;
+mod output;
+mod path;
+
+use args::{Args, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let done = match Args::parse().command {
+        Command::Distance(args) => distance::distance(&args),
+        Command::Path(args) => path::path(&args),
+        Command::Medium(args) => medium::medium(&args),
+        Command::Info(args) => info::info(&args),
+        Command::Completions(args) => completions::completions(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            output::complain(&failure);
+            failure.code()
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! What the commands say.
+
+use crate::args::OutputArgs;
+use crate::failure::Failure;
+use heatpath_io::check_output;
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Prints the one line that explains a failure.
+pub(crate) fn complain(failure: &Failure) {
+    // If standard error is closed there is nobody to tell.
+    drop(writeln!(io::stderr(), "heatpath: error: {failure}"));
+}
+
+/// Tells what was done, on standard error, unless asked to be quiet or to print JSON.
+pub(crate) fn tell(out: &OutputArgs, message: &str) {
+    if !out.quiet && !out.json {
+        drop(writeln!(io::stderr(), "{message}"));
+    }
+}
+
+/// Prints one JSON object on standard output.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string(value).map_err(Failure::file)?;
+    print(&text)
+}
+
+/// Prints a line on standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let failed = |error| Failure::file(format!("standard output: {error}"));
+    writeln!(io::stdout(), "{text}").map_err(failed)
+}
+
+/// Checks before a long computation that the results can be written.
+pub(crate) fn check(
+    output: Option<&Path>,
+    endings: &[&str],
+    out: &OutputArgs,
+) -> Result<(), Failure> {
+    if let Some(output) = output {
+        check_output(output, out.format.as_deref(), out.force, endings)?;
+    }
+    if let Some(overlay) = &out.overlay {
+        check_output(overlay, None, out.force, &["png"])?;
+    }
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! `heatpath path`
+
+use crate::args::PathArgs;
+use crate::failure::Failure;
+use crate::heat::flow;
+use crate::input::Picture;
+use crate::output;
+use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
+use heatpath_io::curves::ending_name;
+use heatpath_io::{Curves, Overlay, curves_json, write_curves, write_overlay};
+
+pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
+    output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
+    let picture = Picture::read(&args.picture)?;
+    let given = &args.sources.points;
+    let sources = picture.points("source", &given.source, given.sources.as_deref())?;
+    let ends = picture.points("end", &args.end, args.ends.as_deref())?;
+    let medium = picture.medium(&args.medium, &sources)?;
+    let outcome = flow(&medium, &sources, &args.heat, args.out.quiet)?;
+    let descent = Descent::new(&outcome.heat);
+    let paths = ends
+        .iter()
+        .map(|&end| descent.path(end, &outcome.distances, PathOptions::default()))
+        .collect::<Result<Vec<_>, _>>()?;
+    // === Write
+    let shape = picture.image.shape();
+    let curves = Curves { spacing: shape.spacing(), paths };
+    if let Some(output) = &args.output {
+        write_curves(output, args.out.format.as_deref(), args.out.force, &curves, shape)?;
+    }
+    if let Some(overlay) = &args.out.overlay {
+        let layers = Overlay { paths: &curves.paths, sources: &sources, ..Overlay::default() };
+        write_overlay(overlay, args.out.force, &picture.image, &layers)?;
+    }
+    // === Report
+    if args.out.json {
+        output::print_json(&curves_json(&curves))?;
+    }
+    for (number, path) in curves.paths.iter().enumerate() {
+        output::tell(&args.out, &line(number, path));
+    }
+    complain_of_missing(&curves.paths)
+}
+
+/// One path in words.
+fn line(number: usize, path: &Path<2>) -> String {
+    let [x, y] = path.points[0];
+    match path.ending {
+        Ending::Source(source) => format!(
+            "path {number} from {x},{y} to source {source}: length {:.2} pixels, {:.6} physical, \
+             distance {:.6}",
+            path.length, path.physical_length, path.distance
+        ),
+        ending => format!("path {number} from {x},{y}: {}", ending_name(ending)),
+    }
+}
+
+/// Paths that ended nowhere are written with the others, but they are no answer.
+fn complain_of_missing(paths: &[Path<2>]) -> Result<(), Failure> {
+    let missing: Vec<(usize, Ending)> = paths
+        .iter()
+        .enumerate()
+        .filter(|(_, path)| !matches!(path.ending, Ending::Source(_)))
+        .map(|(number, path)| (number, path.ending))
+        .collect();
+    let Some(&(number, ending)) = missing.first() else {
+        return Ok(());
+    };
+    let reason = match ending {
+        Ending::Source(_) => "it did",
+        Ending::Unreachable => "walls separate it from every source",
+        Ending::NotReached => "no heat has arrived there; use more --iterations",
+        Ending::StepLimit => "the tracer took its largest number of steps",
+    };
+    Err(Failure::no_answer(format!(
+        "{} of {} paths did not reach a source; the first is path {number}: {reason}",
+        missing.len(),
+        paths.len()
+    )))
+}

@@ -1,0 +1,139 @@
+//! Curves to files: JSON, CSV and SVG.
+
+use crate::output::{known_format, write_atomically};
+use crate::{WriteError, svg};
+use heatpath_core::grid::Shape;
+use heatpath_core::grid::path::{Ending, Path as Curve};
+use serde::Serialize;
+use serde_json::Value;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Minimal paths and what is needed to place them in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves<const D: usize> {
+    /// The physical distance between neighbouring cell centres along each axis.
+    pub spacing: [f64; D],
+    /// The paths, each from its end point to its source, in pixel coordinates.
+    pub paths: Vec<Curve<D>>,
+}
+
+impl<const D: usize> Curves<D> {
+    /// The endings by which [`write_curves`] chooses a format.
+    pub const ENDINGS: [&'static str; 3] = ["json", "csv", "svg"];
+}
+
+/// Writes curves in the given format, or else in the one that the ending of `path` stands for.
+///
+/// - `.json`: as [`curves_json`], in one line;
+/// - `.csv`: one row a point with the columns `path,point,x,y,ended`, all counted from 0, with as
+///   many digits as are needed to read the same numbers back;
+/// - `.svg`: a drawing in pixel coordinates (the centre of the first pixel is at 0,0), as large as
+///   the picture of the given `shape`, to be laid over it.
+///
+/// # Errors
+/// The format is unknown, the folder is missing, the file exists and `overwrite` is not set, or the
+/// operating system refuses.
+pub fn write_curves(
+    path: impl AsRef<Path>,
+    format: Option<&str>,
+    overwrite: bool,
+    curves: &Curves<2>,
+    shape: &Shape<2>,
+) -> Result<(), WriteError> {
+    let format = known_format(path.as_ref(), format, &Curves::<2>::ENDINGS)?;
+    write_atomically(path, overwrite, |out| match format {
+        "json" => write_json(out, curves),
+        "csv" => write_csv(out, curves),
+        _ => out.write_all(svg::drawing(curves, shape).as_bytes()),
+    })
+}
+
+/// The curves as JSON:
+///
+/// ```json
+/// { "version": 1, "dimension": 2, "spacing": [1.0, 1.0],
+///   "paths": [ { "points": [[3.0, 4.0], [0.0, 0.0]], "length": 5.0, "physical_length": 5.0,
+///                "ended": "source", "source": 0, "end": [3.0, 4.0], "distance": 5.0 } ] }
+/// ```
+///
+/// `ended` is `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
+/// path ended at one, and `distance` is null where there is none.
+#[must_use]
+pub fn curves_json<const D: usize>(curves: &Curves<D>) -> Value {
+    // Numbers, strings and lists always convert.
+    serde_json::to_value(Document::new(curves)).unwrap_or_default()
+}
+
+/// The name of an ending in files: `source`, `unreachable`, `not_reached` or `step_limit`.
+#[must_use]
+pub fn ending_name(ending: Ending) -> &'static str {
+    match ending {
+        Ending::Source(_) => "source",
+        Ending::Unreachable => "unreachable",
+        Ending::NotReached => "not_reached",
+        Ending::StepLimit => "step_limit",
+    }
+}
+
+/// The layout of the JSON file.
+#[derive(Serialize)]
+struct Document<'a> {
+    version: u32,
+    dimension: usize,
+    spacing: &'a [f64],
+    paths: Vec<Entry<'a>>,
+}
+
+/// One path in the JSON file.
+#[derive(Serialize)]
+struct Entry<'a> {
+    points: Vec<&'a [f64]>,
+    length: f64,
+    physical_length: f64,
+    ended: &'static str,
+    source: Option<usize>,
+    end: Option<&'a [f64]>,
+    /// Infinity becomes null.
+    distance: f64,
+}
+
+impl<'a> Document<'a> {
+    fn new<const D: usize>(curves: &'a Curves<D>) -> Self {
+        let paths = curves.paths.iter().map(Entry::new).collect();
+        Self { version: 1, dimension: D, spacing: &curves.spacing, paths }
+    }
+}
+
+impl<'a> Entry<'a> {
+    fn new<const D: usize>(path: &'a Curve<D>) -> Self {
+        Self {
+            points: path.points.iter().map(<[f64; D]>::as_slice).collect(),
+            length: path.length,
+            physical_length: path.physical_length,
+            ended: ending_name(path.ending),
+            source: match path.ending {
+                Ending::Source(source) => Some(source),
+                _ => None,
+            },
+            end: path.points.first().map(<[f64; D]>::as_slice),
+            distance: path.distance,
+        }
+    }
+}
+
+fn write_json(out: &mut dyn Write, curves: &Curves<2>) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, &Document::new(curves))?;
+    writeln!(out)
+}
+
+fn write_csv(out: &mut dyn Write, curves: &Curves<2>) -> io::Result<()> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(["path", "point", "x", "y", "ended"])?;
+    for (i, path) in curves.paths.iter().enumerate() {
+        for (j, [x, y]) in path.points.iter().enumerate() {
+            writer.serialize((i, j, x, y, ending_name(path.ending)))?;
+        }
+    }
+    writer.flush()
+}

@@ -1,0 +1,168 @@
+//! From a file's bytes to its samples: one file per format, all with the same result.
+
+mod jpeg;
+mod npy;
+mod npy_header;
+mod palette;
+mod png;
+mod pnm;
+mod tiff;
+
+use crate::ReadError;
+use crate::sample::{SampleType, Samples};
+use image::{ColorType, ImageDecoder};
+use serde::Serialize;
+use std::fmt;
+use std::path::Path;
+
+/// The largest accepted number of pixels.
+const MOST_PIXELS: u64 = 1 << 30;
+
+/// A picture format, recognised by a file's first bytes and never by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Format {
+    /// Portable Network Graphics.
+    Png,
+    /// JPEG.
+    Jpeg,
+    /// TIFF and `BigTIFF`, both byte orders.
+    Tiff,
+    /// PBM, PGM and PPM, as text (`P1` to `P3`) or binary (`P4` to `P6`).
+    Pnm,
+    /// An array written by numpy.
+    Npy,
+}
+
+impl Format {
+    /// Looks at the first bytes.
+    #[must_use]
+    pub fn recognise(bytes: &[u8]) -> Option<Self> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Self::Png),
+            [0xff, 0xd8, 0xff, ..] => Some(Self::Jpeg),
+            [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => Some(Self::Tiff),
+            [b'P', b'1'..=b'6', b' ' | b'\t'..=b'\r' | b'#', ..] => Some(Self::Pnm),
+            [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Some(Self::Npy),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Png => "PNG",
+            Self::Jpeg => "JPEG",
+            Self::Tiff => "TIFF",
+            Self::Pnm => "PNM",
+            Self::Npy => "NPY",
+        })
+    }
+}
+
+/// A decoded file.
+#[derive(Clone, Debug)]
+pub(crate) struct Raster {
+    pub(crate) format: Format,
+    /// Columns and rows.
+    pub(crate) size: [usize; 2],
+    /// Grey, grey and alpha, red-green-blue, or these and alpha.
+    pub(crate) channels: usize,
+    pub(crate) sample: SampleType,
+    /// Row by row, the channels of a pixel side by side.
+    pub(crate) samples: Samples,
+    /// The value of white, for the types that have one: bilevel, 8 and 16 bit unsigned.
+    pub(crate) white: Option<f64>,
+    /// Pictures in the file; the first one was decoded.
+    pub(crate) pages: usize,
+}
+
+impl Raster {
+    /// The channels without alpha: 1 or 3.
+    pub(crate) fn colours(&self) -> usize {
+        if self.channels < 3 { 1 } else { 3 }
+    }
+}
+
+/// Decodes the first picture of a file whose content is `bytes`; `path` is for messages.
+pub(crate) fn decode(bytes: &[u8], path: &Path) -> Result<Raster, ReadError> {
+    if bytes.is_empty() {
+        return Err(ReadError::Empty { path: path.to_owned() });
+    }
+    let format = Format::recognise(bytes)
+        .ok_or_else(|| ReadError::Unrecognised { path: path.to_owned() })?;
+    let input = Input { bytes, path, format };
+    match format {
+        Format::Png => png::decode(&input),
+        Format::Jpeg => jpeg::decode(&input),
+        Format::Tiff => tiff::decode(&input),
+        Format::Pnm => pnm::decode(&input),
+        Format::Npy => npy::decode(&input),
+    }
+}
+
+/// What a decoder is given, and the errors it may return.
+struct Input<'a> {
+    bytes: &'a [u8],
+    path: &'a Path,
+    format: Format,
+}
+
+impl Input<'_> {
+    fn broken(&self, reason: impl fmt::Display) -> ReadError {
+        let reason = one_line(&reason.to_string());
+        ReadError::Decode { path: self.path.to_owned(), format: self.format, reason }
+    }
+
+    fn wrong_type(&self, found: impl fmt::Display) -> ReadError {
+        ReadError::Type { path: self.path.to_owned(), found: one_line(&found.to_string()) }
+    }
+
+    /// Checks a claimed size before anything of that size is allocated. `least_bytes` is what a
+    /// file of such a picture cannot do without.
+    fn check_size(&self, size: [u64; 2], least_bytes: u64) -> Result<[usize; 2], ReadError> {
+        let (path, bytes) = (self.path.to_owned(), self.bytes.len() as u64);
+        if size.contains(&0) {
+            return Err(self.broken(format!("{} x {} pixels: nothing to see", size[0], size[1])));
+        }
+        match size[0].checked_mul(size[1]) {
+            Some(pixels) if pixels <= MOST_PIXELS => {}
+            _ => return Err(ReadError::TooLarge { path, size, most: MOST_PIXELS }),
+        }
+        if least_bytes > bytes {
+            return Err(ReadError::Truncated { path, size, bytes });
+        }
+        Ok(size.map(|n| n as usize))
+    }
+
+    /// Runs a decoder of the `image` crate: its samples and how many there are in a pixel.
+    fn samples(&self, decoder: impl ImageDecoder) -> Result<(Samples, usize), ReadError> {
+        let colour = decoder.color_type();
+        let length = usize::try_from(decoder.total_bytes()).map_err(|e| self.broken(e))?;
+        let mut bytes = vec![0; length];
+        decoder.read_image(&mut bytes).map_err(|e| self.broken(e))?;
+        let samples = match colour {
+            ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
+                Samples::U8(bytes)
+            }
+            ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+                let pairs = bytes.chunks_exact(2);
+                Samples::U16(pairs.map(|pair| u16::from_ne_bytes([pair[0], pair[1]])).collect())
+            }
+            other => return Err(self.wrong_type(format!("{other:?}"))),
+        };
+        Ok((samples, usize::from(colour.channel_count())))
+    }
+}
+
+/// A decoder's words, which may quote the file, fit for one line of a terminal.
+fn one_line(text: &str) -> String {
+    let plain = text.replace(char::is_control, " ");
+    let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(200) {
+        None => line,
+        Some((cut, _)) => format!("{}...", &line[..cut]),
+    }
+}

@@ -1,0 +1,126 @@
+//! Fields to files.
+
+use crate::WriteError;
+use crate::legend::with_legend;
+use crate::output::{known_format, write_atomically};
+use heatpath_core::grid::Grid;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use npyz::WriterBuilder;
+use std::io::{self, Cursor, Write};
+use std::path::Path;
+use tiff::encoder::{TiffEncoder, TiffKind, colortype};
+
+/// From this many bytes of samples on a TIFF is written as `BigTIFF`, as its offsets need 64 bits.
+const BIG_TIFF: usize = 4_000_000_000;
+
+/// The largest number of pixels in a picture for eyes.
+const MOST_PIXELS: usize = 1 << 29;
+
+/// A format in which fields are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FieldFormat {
+    /// An array for numpy: 64-bit floats, C order, shape (rows, columns); infinities are kept.
+    Npy,
+    /// A TIFF of 32-bit floats; infinities are kept.
+    Tiff,
+    /// A colour-mapped picture with a colour bar, for eyes.
+    Png,
+}
+
+impl FieldFormat {
+    /// The endings by which the format is chosen.
+    pub const ENDINGS: [&'static str; 4] = ["npy", "tif", "tiff", "png"];
+
+    /// The format called `format`, or else the one that the ending of `path` stands for; capitals
+    /// do not matter.
+    ///
+    /// # Errors
+    /// It is none of [`Self::ENDINGS`].
+    pub fn new(path: impl AsRef<Path>, format: Option<&str>) -> Result<Self, WriteError> {
+        Ok(match known_format(path.as_ref(), format, &Self::ENDINGS)? {
+            "npy" => Self::Npy,
+            "png" => Self::Png,
+            _ => Self::Tiff,
+        })
+    }
+}
+
+/// How a field looks as a picture; the other formats ignore it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FieldStyle {
+    /// A line of text above the field. Default: none.
+    pub title: Option<String>,
+}
+
+/// Writes a field in the given format, or else in the one that the ending of `path` stands for.
+///
+/// In a picture (`.png`) each cell is one pixel; if the longest side is below 256, each cell is a
+/// square of several pixels. The field lies in the upper left corner, below the title if there is
+/// one. Colours run from the smallest to the largest finite value; other cells are dark grey.
+///
+/// # Errors
+/// The format is unknown, the folder is missing, the file exists and `overwrite` is not set, the
+/// field is too large for the format, or the operating system refuses.
+pub fn write_field(
+    path: impl AsRef<Path>,
+    format: Option<&str>,
+    overwrite: bool,
+    field: &Grid<f64, 2>,
+    style: &FieldStyle,
+) -> Result<(), WriteError> {
+    let format = FieldFormat::new(&path, format)?;
+    write_atomically(path, overwrite, |out| match format {
+        FieldFormat::Npy => write_npy(out, field),
+        FieldFormat::Tiff => write_tiff(out, field),
+        FieldFormat::Png => {
+            check_picture_size(field.shape().size())?;
+            write_png(out, &with_legend(field, style.title.as_deref()))
+        }
+    })
+}
+
+fn write_npy(out: &mut dyn Write, field: &Grid<f64, 2>) -> io::Result<()> {
+    let [columns, rows] = field.shape().size().map(|n| n as u64);
+    let options = npyz::WriteOptions::<f64>::new().default_dtype().shape(&[rows, columns]);
+    let mut writer = options.writer(out).begin_nd()?;
+    writer.extend(field.values().iter().copied())?;
+    writer.finish()
+}
+
+fn write_tiff(out: &mut dyn Write, field: &Grid<f64, 2>) -> io::Result<()> {
+    let mut bytes = Cursor::new(Vec::new());
+    if field.values().len() * size_of::<f32>() < BIG_TIFF {
+        encode_tiff(TiffEncoder::new(&mut bytes).map_err(io::Error::other)?, field)?;
+    } else {
+        encode_tiff(TiffEncoder::new_big(&mut bytes).map_err(io::Error::other)?, field)?;
+    }
+    out.write_all(bytes.get_ref())
+}
+
+fn encode_tiff<W: Write + io::Seek, K: TiffKind>(
+    mut encoder: TiffEncoder<W, K>,
+    field: &Grid<f64, 2>,
+) -> io::Result<()> {
+    let [columns, rows] = field.shape().size().map(u32::try_from);
+    let (columns, rows) = (columns.map_err(io::Error::other)?, rows.map_err(io::Error::other)?);
+    let values: Vec<f32> = field.values().iter().map(|&value| value as f32).collect();
+    encoder.write_image::<colortype::Gray32Float>(columns, rows, &values).map_err(io::Error::other)
+}
+
+/// Writes a picture as PNG.
+pub(crate) fn write_png(out: &mut dyn Write, picture: &RgbImage) -> io::Result<()> {
+    PngEncoder::new(out)
+        .write_image(picture, picture.width(), picture.height(), ExtendedColorType::Rgb8)
+        .map_err(io::Error::other)
+}
+
+/// Refuses pictures that no viewer would open.
+pub(crate) fn check_picture_size(size: [usize; 2]) -> io::Result<()> {
+    if size[0].saturating_mul(size[1]) <= MOST_PIXELS {
+        return Ok(());
+    }
+    let [columns, rows] = size;
+    Err(io::Error::other(format!("{columns} x {rows} cells are too large for a PNG picture")))
+}

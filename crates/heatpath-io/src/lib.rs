@@ -1,0 +1,61 @@
+//! Files to and from the nouns of `heatpath-core`.
+//!
+//! | direction | what | formats |
+//! | --- | --- | --- |
+//! | in | pictures, fields, masks ([`read_picture`], [`read_field`], [`read_mask`]) | PNG, JPEG, TIFF, PNM, NPY |
+//! | in | points ([`read_points`]) | CSV, JSON |
+//! | in | what a file holds ([`info`](fn@info)) | as pictures |
+//! | out | fields ([`write_field`]) | NPY, TIFF, PNG |
+//! | out | curves ([`write_curves`]) | JSON, CSV, SVG |
+//! | out | a result on its picture ([`write_overlay`]) | PNG |
+//!
+//! Inputs are recognised by their content, outputs by the ending of their name. Inputs are not
+//! trusted: no size is believed before the file is long enough for it, and each error is one line
+//! that names the file, what was wrong and what would have been accepted. Outputs appear complete
+//! or not at all ([`write_atomically`]). Well-kept crates do the formats; this one holds what lies
+//! between them and a [`Grid`](heatpath_core::grid::Grid).
+//!
+//! ```
+//! use heatpath_core::grid::{Grid, Shape};
+//! use heatpath_io::{FieldStyle, PictureOptions, info, read_field, read_picture, write_field};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("ramp.npy");
+//! let ramp = Grid::from_fn(Shape::new([3, 2])?, |[x, _]| x as f64);
+//! write_field(&path, None, false, &ramp, &FieldStyle::default())?;
+//!
+//! assert_eq!(read_field(&path, [1.0, 1.0])?, ramp);
+//! assert_eq!(read_picture(&path, &PictureOptions::default())?[[1, 0]], 0.5);
+//! assert_eq!(info(&path)?.sample.to_string(), "float64");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod colour;
+pub mod curves;
+mod decode;
+mod error;
+pub mod field;
+mod info;
+mod legend;
+pub mod output;
+pub mod overlay;
+pub mod picture;
+mod points;
+mod sample;
+mod svg;
+mod text;
+
+pub use colour::colour_map;
+pub use curves::{Curves, curves_json, write_curves};
+pub use decode::Format;
+pub use error::{ReadError, WriteError};
+pub use field::{FieldFormat, FieldStyle, write_field};
+pub use info::{Info, info, info_from_bytes};
+pub use output::{check_output, write_atomically};
+pub use overlay::{Overlay, write_overlay};
+pub use picture::{
+    Channel, PictureOptions, read_field, read_field_from_bytes, read_mask, read_mask_from_bytes,
+    read_picture, read_picture_from_bytes,
+};
+pub use points::{read_points, read_points_from_bytes};
+pub use sample::SampleType;

@@ -1,0 +1,233 @@
+//! Results drawn on the picture from which they come.
+
+use crate::WriteError;
+use crate::colour::{NOT_FINITE, colour_of, enlargement, finite_range};
+use crate::field::{check_picture_size, write_png};
+use crate::output::{known_format, write_atomically};
+use heatpath_core::grid::Grid;
+use heatpath_core::grid::path::{Ending, Path as Curve};
+use image::RgbImage;
+use std::io;
+use std::path::Path;
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
+    StrokeDash, Transform,
+};
+
+/// How much of a field's colour covers the picture.
+const COVER: f64 = 0.5;
+
+const BLACK: [u8; 4] = [0, 0, 0, 255];
+const WHITE: [u8; 4] = [255, 255, 255, 255];
+const RED: [u8; 4] = [230, 20, 30, 255];
+/// Under each curve, so that it shows on light ground.
+const SHADOW: [u8; 4] = [0, 20, 40, 200];
+/// Curves that reached a source.
+const CYAN: [u8; 4] = [0, 210, 255, 255];
+/// Curves that did not.
+const ORANGE: [u8; 4] = [255, 150, 0, 255];
+
+/// What is drawn on a picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Overlay<'a> {
+    /// A field, for example of distances, in half-transparent colours; its size must be the
+    /// picture's. Cells that are not finite stay as they are.
+    pub field: Option<&'a Grid<f64, 2>>,
+    /// Curves: cyan if they ended at a source, else dashed and orange. Their end points are white
+    /// dots, the sources at which they ended red crosses.
+    pub paths: &'a [Curve<2>],
+    /// Further sources, drawn as red crosses too.
+    pub sources: &'a [[f64; 2]],
+}
+
+/// Writes `picture` (values from 0, black, to 1, white) with `layers` drawn on it, as PNG.
+///
+/// Each cell is one pixel; if the longest side is below 256, each is a square of several pixels.
+///
+/// # Errors
+/// The ending is not `.png`, the sizes differ, the picture is too large, the folder is missing, the
+/// file exists and `overwrite` is not set, or the operating system refuses.
+pub fn write_overlay(
+    path: impl AsRef<Path>,
+    overwrite: bool,
+    picture: &Grid<f64, 2>,
+    layers: &Overlay<'_>,
+) -> Result<(), WriteError> {
+    let path = path.as_ref();
+    known_format(path, None, &["png"])?;
+    let size = picture.shape().size();
+    if let Some(field) = layers.field.map(|field| field.shape().size())
+        && field != size
+    {
+        return Err(WriteError::Mismatch { path: path.to_owned(), picture: size, field });
+    }
+    write_atomically(path, overwrite, |out| write_png(out, &drawn(picture, layers)?))
+}
+
+fn drawn(picture: &Grid<f64, 2>, layers: &Overlay<'_>) -> io::Result<RgbImage> {
+    let mut canvas = Canvas::new(picture, layers.field)?;
+    canvas.draw_paths(layers.paths);
+    let ends = layers.paths.iter().filter_map(|path| path.points.first());
+    ends.for_each(|&end| canvas.draw_end(end));
+    for source in sources(layers) {
+        canvas.draw_source(source);
+    }
+    Ok(canvas.into_picture())
+}
+
+/// The sources, each once.
+fn sources(layers: &Overlay<'_>) -> Vec<[f64; 2]> {
+    let reached = layers.paths.iter().filter(|path| reached_source(path));
+    let mut all: Vec<[f64; 2]> = layers.sources.to_vec();
+    for &source in reached.filter_map(|path| path.points.last()) {
+        if !all.contains(&source) {
+            all.push(source);
+        }
+    }
+    all
+}
+
+fn reached_source(path: &Curve<2>) -> bool {
+    matches!(path.ending, Ending::Source(_))
+}
+
+/// A picture to draw on.
+struct Canvas {
+    pixels: Pixmap,
+    /// From pixel coordinates of the grid to those of the canvas, whose pixel centres are at .5.
+    transform: Transform,
+    /// Canvas pixels a cell.
+    scale: f32,
+    /// The width of curves in canvas pixels.
+    line: f32,
+}
+
+impl Canvas {
+    fn new(picture: &Grid<f64, 2>, field: Option<&Grid<f64, 2>>) -> io::Result<Self> {
+        let size = picture.shape().size();
+        check_picture_size(size)?;
+        let factor = enlargement(size);
+        let [width, height] = size.map(|n| (n * factor) as u32);
+        let mut pixels = Pixmap::new(width, height)
+            .ok_or_else(|| io::Error::other("the picture is too large to draw on"))?;
+        let ground = ground(picture, field);
+        for (i, pixel) in pixels.pixels_mut().iter_mut().enumerate() {
+            let (x, y) = (i % width as usize / factor, i / width as usize / factor);
+            *pixel = ground[y * size[0] + x];
+        }
+        let scale = factor as f32;
+        let line = (width.max(height) as f32 / 300.0).clamp(2.0, 6.0);
+        let transform = Transform::from_row(scale, 0.0, 0.0, scale, 0.5 * scale, 0.5 * scale);
+        Ok(Self { pixels, transform, scale, line })
+    }
+
+    /// All outlines first: where curves meet they run into one another.
+    fn draw_paths(&mut self, paths: &[Curve<2>]) {
+        for (widening, outline) in [(1.6, true), (0.0, false)] {
+            for path in paths.iter().filter(|path| path.points.len() > 1) {
+                let colour = match reached_source(path) {
+                    _ if outline => SHADOW,
+                    true => CYAN,
+                    false => ORANGE,
+                };
+                self.draw_path(path, colour, self.line + widening);
+            }
+        }
+    }
+
+    fn draw_path(&mut self, path: &Curve<2>, colour: [u8; 4], width: f32) {
+        let mut builder = PathBuilder::new();
+        for (i, &[x, y]) in path.points.iter().enumerate() {
+            match i {
+                0 => builder.move_to(x as f32, y as f32),
+                _ => builder.line_to(x as f32, y as f32),
+            }
+        }
+        let mut stroke = self.stroke(width);
+        if !reached_source(path) {
+            let unit = self.line / self.scale;
+            stroke.line_cap = LineCap::Butt;
+            stroke.dash = StrokeDash::new(vec![4.0 * unit, 3.0 * unit], 0.0);
+        }
+        self.draw_stroke(builder, colour, &stroke);
+    }
+
+    fn draw_end(&mut self, [x, y]: [f64; 2]) {
+        let radius = (1.3 * self.line).max(3.0);
+        for (radius, colour) in [(radius + 1.2, BLACK), (radius, WHITE)] {
+            let circle = PathBuilder::from_circle(x as f32, y as f32, radius / self.scale);
+            if let Some(circle) = circle {
+                let paint = paint(colour);
+                self.pixels.fill_path(&circle, &paint, FillRule::Winding, self.transform, None);
+            }
+        }
+    }
+
+    fn draw_source(&mut self, [x, y]: [f64; 2]) {
+        let (x, y, arm) = (x as f32, y as f32, (2.2 * self.line).max(4.5) / self.scale);
+        for (width, colour) in [(self.line + 3.0, WHITE), (self.line + 0.6, RED)] {
+            let mut builder = PathBuilder::new();
+            for sign in [-1.0, 1.0] {
+                builder.move_to(x - arm, y - sign * arm);
+                builder.line_to(x + arm, y + sign * arm);
+            }
+            self.draw_stroke(builder, colour, &self.stroke(width));
+        }
+    }
+
+    /// A stroke whose width is given in canvas pixels.
+    fn stroke(&self, width: f32) -> Stroke {
+        Stroke {
+            width: width / self.scale,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        }
+    }
+
+    fn draw_stroke(&mut self, builder: PathBuilder, colour: [u8; 4], stroke: &Stroke) {
+        if let Some(path) = builder.finish() {
+            self.pixels.stroke_path(&path, &paint(colour), stroke, self.transform, None);
+        }
+    }
+
+    /// The canvas is opaque: alpha can go.
+    fn into_picture(self) -> RgbImage {
+        let (width, pixels) = (self.pixels.width() as usize, self.pixels.pixels());
+        RgbImage::from_fn(self.pixels.width(), self.pixels.height(), |x, y| {
+            let pixel = pixels[y as usize * width + x as usize];
+            image::Rgb([pixel.red(), pixel.green(), pixel.blue()])
+        })
+    }
+}
+
+fn paint(colour: [u8; 4]) -> Paint<'static> {
+    let [r, g, b, a] = colour;
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color(Color::from_rgba8(r, g, b, a));
+    paint
+}
+
+/// The grey picture with the field's colours over it, one pixel a cell.
+fn ground(picture: &Grid<f64, 2>, field: Option<&Grid<f64, 2>>) -> Vec<PremultipliedColorU8> {
+    let (low, high) = field.and_then(finite_range).unwrap_or((0.0, 0.0));
+    let colour = |i: usize| {
+        let below = grey(picture.values()[i]);
+        match field.and_then(|field| colour_of(field.values()[i], low, high)) {
+            Some(above) => std::array::from_fn(|c| mixed(below[c], above[c])),
+            None => below,
+        }
+    };
+    (0..picture.values().len())
+        .map(colour)
+        .map(|[r, g, b]: [u8; 3]| Color::from_rgba8(r, g, b, 255).premultiply().to_color_u8())
+        .collect()
+}
+
+fn grey(value: f64) -> [u8; 3] {
+    if value.is_nan() { NOT_FINITE } else { [(value.clamp(0.0, 1.0) * 255.0).round() as u8; 3] }
+}
+
+fn mixed(below: u8, above: u8) -> u8 {
+    (f64::from(below) * (1.0 - COVER) + f64::from(above) * COVER).round() as u8
+}
