@@ -1,6 +1,8 @@
 //! How to run a computation: threads, progress and cancellation; never what to compute.
 
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::ControlFlow;
+use std::thread::{self, JoinHandle};
 use thiserror::Error;
 
 /// The caller asked for the computation to stop; nothing was returned.
@@ -28,7 +30,7 @@ pub type Watch<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 /// the number of threads.
 #[derive(Default)]
 pub struct Exec<'a> {
-    pool: Option<rayon::ThreadPool>,
+    threads: Option<Threads>,
     watch: Option<Box<Watch<'a>>>,
 }
 
@@ -38,12 +40,7 @@ impl<'a> Exec<'a> {
     /// # Errors
     /// The operating system refused to start them.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .thread_name(|i| format!("heatpath-{i}"))
-            .build()
-            .map_err(|error| ThreadsError { threads, reason: error.to_string() })?;
-        Ok(Self { pool: Some(pool), watch: None })
+        Ok(Self { threads: Some(Threads::start(threads)?), watch: None })
     }
 
     /// Runs on the calling thread alone.
@@ -54,6 +51,8 @@ impl<'a> Exec<'a> {
 
     /// Calls `watch` with the finished part (0 to 1) every few milliseconds to seconds, always on
     /// the calling thread, and cancels when it answers [`ControlFlow::Break`].
+    ///
+    /// The part falls back when a computation has to begin again with a wider range of numbers.
     #[must_use]
     pub fn with_watch(mut self, watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a) -> Self {
         self.watch = Some(Box::new(watch));
@@ -63,7 +62,7 @@ impl<'a> Exec<'a> {
     /// The number of threads.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+        self.threads.as_ref().map_or(1, |threads| threads.handles.len())
     }
 
     /// Reports the finished part and asks whether to go on.
@@ -82,12 +81,50 @@ impl<'a> Exec<'a> {
         work: impl Fn(&mut S, &mut T) + Sync + Send,
     ) {
         use rayon::prelude::*;
-        match &self.pool {
+        match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
             Some(pool) => pool.install(|| items.par_iter_mut().for_each_init(scratch, work)),
             None => {
                 let mut scratch = scratch();
                 items.iter_mut().for_each(|item| work(&mut scratch, item));
             }
+        }
+    }
+}
+
+/// A thread pool that has ended when it is dropped: rayon's own only asks its threads to end, and a
+/// host that unloads its plugin then would find them running.
+struct Threads {
+    /// Always there until it is dropped.
+    pool: Option<ThreadPool>,
+    handles: Vec<JoinHandle<()>>,
+}
+
+impl Threads {
+    fn start(threads: usize) -> Result<Self, ThreadsError> {
+        let threads = match threads {
+            0 => thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let mut handles = Vec::new();
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .spawn_handler(|worker| {
+                let name = format!("heatpath-{}", worker.index());
+                handles.push(thread::Builder::new().name(name).spawn(|| worker.run())?);
+                Ok(())
+            })
+            .build()
+            .map_err(|error| ThreadsError { threads, reason: error.to_string() })?;
+        Ok(Self { pool: Some(pool), handles })
+    }
+}
+
+impl Drop for Threads {
+    fn drop(&mut self) {
+        drop(self.pool.take());
+        for handle in self.handles.drain(..) {
+            // A worker that panicked has told its caller already.
+            drop(handle.join());
         }
     }
 }

@@ -162,7 +162,7 @@ fn a_watcher_sees_progress_and_can_cancel() {
     drop(watching);
     let seen = seen.into_inner().unwrap();
     assert!(seen.len() > 5 && seen.windows(2).all(|pair| pair[0] < pair[1]), "{seen:?}");
-    assert_eq!(seen[0], 0.0);
+    assert_eq!((seen[0], seen[seen.len() - 1]), (0.0, 1.0));
 
     let cancelling = Exec::single_threaded().with_watch(|finished| {
         if finished > 0.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -186,7 +186,13 @@ fn steps_above_the_stable_one_are_refused_with_both_numbers() {
     assert_eq!(with(Step::Auto, usual), Ok(0.2));
     assert_eq!(with(Step::Fixed(0.25), usual), Ok(0.25));
     assert_eq!(with(Step::Fixed(-1.0), usual), Err(HeatError::Step(-1.0)));
-    assert_eq!(with(Step::Auto, Duration::Iterations(0)), Err(HeatError::Iterations));
+    for absurd in [0, usize::MAX] {
+        let refused = Err(HeatError::Iterations(absurd as f64));
+        assert_eq!(with(Step::Auto, Duration::Iterations(absurd)), refused);
+    }
+    assert_eq!(with(Step::Auto, Duration::Time(1e300)), Err(HeatError::Iterations(5e300)));
+    assert_eq!(with(Step::Fixed(1e-300), usual), Err(HeatError::Step(1e-300)));
+    assert!(with(Step::Fixed(f64::NAN), usual).is_err());
     assert_eq!(with(Step::Auto, Duration::Time(0.0)), Err(HeatError::Time(0.0)));
     assert_eq!(with(Step::Auto, Duration::Time(1.1)), Ok(1.1 / 6.0));
 }

@@ -18,7 +18,7 @@ fn sweep<const D: usize>(
     let mut sum = u.to_vec();
     for _ in 0..iterations {
         let before = u.to_vec();
-        for cell in 0..shape.cells() {
+        for (cell, u) in u.iter_mut().enumerate() {
             let flux: f64 = (0..D)
                 .map(|axis| {
                     let (stride, index) = (shape.stride(axis), shape.index(cell)[axis]);
@@ -31,7 +31,7 @@ fn sweep<const D: usize>(
                     after - before
                 })
                 .fold(0.0, |sum, flux| sum + flux);
-            u[cell] += medium.factor().map_or(step, |k| step * k.values()[cell]) * flux;
+            *u += medium.factor().map_or(step, |k| step * k.values()[cell]) * flux;
         }
         sum.iter_mut().zip(&*u).for_each(|(sum, u)| *sum += u);
     }

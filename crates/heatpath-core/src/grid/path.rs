@@ -86,7 +86,7 @@ impl<const D: usize> Descent<D> {
     /// `distances` are those that the path's `distance` is read from.
     ///
     /// # Errors
-    /// The end lies outside the grid or inside a wall. A path that does not reach a source is no
+    /// The end (called number 0) lies outside the grid or inside a wall. A path that does not reach a source is no
     /// error: its [`Ending`] says why.
     pub fn path(
         &self,

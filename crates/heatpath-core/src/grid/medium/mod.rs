@@ -14,7 +14,7 @@ mod uniform;
 pub use combined::combined;
 pub use conductivity::{ConductivityOptions, conductivity};
 pub use edges::{EdgesOptions, edges};
-pub use given::given;
+pub use given::{GIVEN_RANGE, given};
 pub use perona_malik::{EdgeStop, PeronaMalikOptions, SMALLEST_DIFFUSION, perona_malik};
 pub use uniform::uniform;
 
@@ -47,12 +47,12 @@ pub enum MediumError {
     /// A value of the picture or field is infinite or not a number.
     #[error(transparent)]
     NotFinite(#[from] NotFinite),
-    /// A given field is zero or negative somewhere.
+    /// A given field is zero, negative or absurd somewhere.
     #[error(
-        "the given field is {value} at {index:?}; a medium must be positive everywhere \
-         (use a mask for walls)"
+        "the given field is {value} at {index:?}; a medium must be positive everywhere, from 1e-100 \
+         to 1e100 (use a mask for walls)"
     )]
-    NotPositive {
+    GivenValue {
         /// The index of the first such cell.
         index: Vec<usize>,
         /// Its value.

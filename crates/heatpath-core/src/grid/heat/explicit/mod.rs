@@ -76,19 +76,23 @@ pub enum HeatError {
         /// The largest stable step, in cell units.
         largest_stable: f64,
     },
-    /// The step is zero, negative or not a number.
-    #[error("the time step is {0}; it must be a positive finite number")]
+    /// The step is not a positive number, or absurdly small.
+    #[error("the time step is {0}; it must be a positive number, at least 1e-100")]
     Step(f64),
-    /// The time is zero, negative or not a number.
+    /// The time is not a positive number.
     #[error("the time is {0}; it must be a positive finite number")]
     Time(f64),
-    /// There are no iterations.
-    #[error("the number of iterations is 0; at least 1 is needed")]
-    Iterations,
+    /// There are no iterations, or more than anybody could wait for.
+    #[error("the number of iterations is {0}; it must be from 1 to 1e12")]
+    Iterations(f64),
     /// The caller cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
+
+/// The smallest step and the most iterations that make sense.
+const SMALLEST_STEP: f64 = 1e-100;
+const MOST_ITERATIONS: f64 = 1e12;
 
 /// Explicit heat in one medium, prepared once for any number of sources.
 ///
@@ -125,9 +129,6 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let operator = Operator::new(medium, options.face_mean);
         let largest_stable = operator.largest_stable_step(medium.shape());
         let step = match options.step {
-            Step::Fixed(step) if !(step.is_finite() && step > 0.0) => {
-                return Err(HeatError::Step(step));
-            }
             Step::Fixed(step) if step > largest_stable => {
                 return Err(HeatError::StepTooLarge { step, largest_stable });
             }
@@ -136,18 +137,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             Step::Auto if largest_stable.is_infinite() => Step::DEFAULT,
             Step::Auto => Step::SAFE_FRACTION * largest_stable,
         };
-        let (iterations, step) = match options.duration {
-            Duration::TwiceLongestSide => (2 * medium.shape().longest_side(), step),
-            Duration::Iterations(0) => return Err(HeatError::Iterations),
-            Duration::Iterations(iterations) => (iterations, step),
-            Duration::Time(time) if !(time.is_finite() && time > 0.0) => {
-                return Err(HeatError::Time(time));
-            }
-            Duration::Time(time) => {
-                let iterations = (time / step).ceil();
-                (iterations as usize, time / iterations)
-            }
-        };
+        let (iterations, step) = steps(options.duration, step, medium.shape().longest_side())?;
         Ok(Self { medium, operator, iterations, step })
     }
 
@@ -170,7 +160,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// The caller cancelled.
     pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
         let amounts = vec![1.0; sources.points().len()];
-        self.flow_amounts(sources, amounts, &mut |finished| exec.report(finished), exec)
+        let heat =
+            self.flow_amounts(sources, amounts, &mut |finished| exec.report(finished), exec)?;
+        exec.report(1.0)?;
+        Ok(heat)
     }
 
     /// Lets heat flow from `sources` with amounts that make them equally warm at the end.
@@ -192,7 +185,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let hottest = ln_temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let amounts = ln_temperatures.iter().map(|ln| (hottest - ln).exp()).collect();
         let second_half = &mut |finished: f64| exec.report(0.5 + 0.5 * finished);
-        self.flow_amounts(sources, amounts, second_half, exec)
+        let heat = self.flow_amounts(sources, amounts, second_half, exec)?;
+        exec.report(1.0)?;
+        Ok(heat)
     }
 
     fn flow_amounts(
@@ -255,4 +250,30 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
         front.iter().any(|&cell| cold(cell) && met[cell])
     }
+}
+
+/// The number of steps and their length.
+fn steps(duration: Duration, step: f64, longest_side: usize) -> Result<(usize, f64), HeatError> {
+    let usable = |step: f64| step.is_finite() && step >= SMALLEST_STEP;
+    if !usable(step) {
+        return Err(HeatError::Step(step));
+    }
+    let (iterations, step) = match duration {
+        Duration::TwiceLongestSide => (2.0 * longest_side as f64, step),
+        Duration::Iterations(iterations) => (iterations as f64, step),
+        Duration::Time(time) if !(time.is_finite() && time > 0.0) => {
+            return Err(HeatError::Time(time));
+        }
+        Duration::Time(time) => {
+            let iterations = (time / step).ceil();
+            (iterations, time / iterations)
+        }
+    };
+    if !usable(step) {
+        return Err(HeatError::Step(step));
+    }
+    if !(1.0..=MOST_ITERATIONS).contains(&iterations) {
+        return Err(HeatError::Iterations(iterations));
+    }
+    Ok((iterations as usize, step))
 }

@@ -1,0 +1,64 @@
+//! Distance maps.
+
+use crate::buffer::hp_buffer;
+use crate::options::hp_options;
+use crate::pixels;
+use crate::problem::{Arguments, Problem};
+use crate::status::{Failure, HP_INVALID_BUFFER, guard, hp_status};
+use crate::view::View;
+
+/// Computes the distance of every pixel from the nearest source, by letting heat flow.
+///
+/// image: the picture that makes the medium, see hp_options; any type of pixel.
+///
+/// mask: pixels that are 0 are walls, all others are open; of the same size. NULL for no walls.
+///
+/// sources: source_count pairs x, y in pixel coordinates: 0, 0 is the centre of the first pixel, x
+/// runs to the right and y down; fractions are allowed.
+///
+/// options: NULL for the defaults.
+///
+/// distance: receives the result; of the same size, HP_F32 or HP_F64, with any strides; it may be
+/// the memory of the image. Distances are in physical units (those of the image's spacing) where
+/// the medium is 1, and infinite in walls and wherever no heat has arrived. It is written only if
+/// HP_OK is returned.
+///
+/// # Safety
+/// The structs are as large as their `struct_size` says, and buffers and points are as large as
+/// their description. The result is not used by another thread meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_distance(
+    image: *const hp_buffer,
+    mask: *const hp_buffer,
+    sources: *const f64,
+    source_count: u64,
+    options: *const hp_options,
+    distance: *const hp_buffer,
+) -> hp_status {
+    let arguments = Arguments { image, mask, sources, source_count, options };
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { write_distance(&arguments, distance) })
+}
+
+/// # Safety
+/// As [`hp_distance`].
+unsafe fn write_distance(arguments: &Arguments, distance: *const hp_buffer) -> Result<(), Failure> {
+    // SAFETY: the caller's promise.
+    let target = unsafe { View::read(distance, "distance")? };
+    pixels::check_writable(&target)?;
+    // SAFETY: the caller's promise.
+    let problem = unsafe { Problem::read(arguments)? };
+    let (size, expected) = (target.shape.size(), problem.mask().shape().size());
+    if size != expected {
+        return Err(Failure::new(
+            HP_INVALID_BUFFER,
+            format!("distance: it has {size:?} pixels, but the image has {expected:?}"),
+        ));
+    }
+    let heat = problem.flow(1.0)?;
+    let distances = problem.distances(&heat);
+    problem.progress().check(1.0)?;
+    // SAFETY: the caller promises that the pixels can be written; their type was checked.
+    unsafe { pixels::write(&target, distances.field().values()) };
+    Ok(())
+}

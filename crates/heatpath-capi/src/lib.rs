@@ -1,0 +1,41 @@
+//! The C interface of heatpath: geodesic distances and paths on images by heat diffusion.
+//!
+//! C and C++ programs include `include/heatpath.h`, which is generated from this crate, and link
+//! `libheatpath`. The names here are those of the header. Rust programs use `heatpath-core`.
+//!
+//! | module | what |
+//! | --- | --- |
+//! | `version` | which library this is |
+//! | `status` | what functions return, and the message that goes with it |
+//! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
+//! | `options` | medium, heat, estimator, threads and progress; `settings` checks them |
+//! | `distance`, `paths` | the computations; `problem` is what they share |
+//! | `structs` | structs that begin with their size and grow at the end |
+//!
+//! Whatever a caller passes, a function answers with a status and never unwinds, prints, touches
+//! signal handlers, or leaves anything running.
+
+#![allow(unsafe_code, reason = "C callers pass raw pointers")]
+#![allow(non_camel_case_types, reason = "the names are those of the C header")]
+#![allow(clippy::doc_markdown, reason = "the comments become those of the C header")]
+#![warn(clippy::undocumented_unsafe_blocks)]
+
+mod buffer;
+mod distance;
+mod options;
+mod paths;
+mod pixels;
+mod problem;
+mod progress;
+mod settings;
+mod status;
+mod structs;
+mod version;
+mod view;
+
+pub use buffer::*;
+pub use distance::*;
+pub use options::*;
+pub use paths::*;
+pub use status::*;
+pub use version::*;

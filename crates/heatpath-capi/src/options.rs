@@ -1,0 +1,142 @@
+//! What to compute and how: medium, heat, estimator, threads, progress.
+
+use crate::status::{guard, hp_status};
+use crate::structs::{self, Versioned};
+use heatpath_core::grid::heat::Step;
+use std::ffi::{c_int, c_void};
+use std::mem::size_of;
+
+/// The same everywhere: distances are Euclidean, around the walls of the mask. Of the image only
+/// the size and spacing count; its data may be NULL.
+pub const HP_MEDIUM_UNIFORM: u32 = 1;
+/// Heat flows where the grey value f resembles that of the sources: k = |1 - |f0 - f||^power +
+/// floor. The default.
+pub const HP_MEDIUM_CONDUCTIVITY: u32 = 2;
+/// Heat stays inside regions without edges (Perona and Malik).
+pub const HP_MEDIUM_PERONA_MALIK: u32 = 3;
+/// Grey value and edges together: the product of the two above.
+pub const HP_MEDIUM_COMBINED: u32 = 4;
+/// Heat runs along edges and thin lines: D = |grad f|^2 + floor.
+pub const HP_MEDIUM_EDGES: u32 = 5;
+/// The image itself is the medium, positive everywhere and not scaled. Lengths are
+/// ds / sqrt(image): a cost c per length is the image 1 / c^2.
+pub const HP_MEDIUM_GIVEN: u32 = 6;
+
+/// D = exp(-(|grad f| / contrast)^2). The default.
+pub const HP_EDGE_STOP_EXPONENTIAL: u32 = 1;
+/// D = 1 / (1 + (|grad f| / contrast)^2).
+pub const HP_EDGE_STOP_RATIONAL: u32 = 2;
+
+/// The medium's own choice: divergence, but pointwise for HP_MEDIUM_CONDUCTIVITY and
+/// HP_MEDIUM_GIVEN.
+pub const HP_FORM_DEFAULT: u32 = 0;
+/// u_t = div(D grad u).
+pub const HP_FORM_DIVERGENCE: u32 = 1;
+/// u_t = D laplace(u).
+pub const HP_FORM_POINTWISE: u32 = 2;
+
+/// sqrt(-4 t log(u / u0)), where u0 is the temperature at the sources. The default, for lengths.
+/// With several sources heat flows twice, to make them equally warm.
+pub const HP_NORMALIZED: u32 = 1;
+/// sqrt(-4 t log u), Varadhan's formula as it stands: too long near the sources.
+pub const HP_VARADHAN: u32 = 2;
+
+/// Is called from time to time with the finished part, from 0 to 1 and never falling, always on
+/// the thread that called the library. Anything but 0 cancels: the call then returns
+/// HP_CANCELLED.
+///
+/// It may call the library, but must not throw an exception or jump out.
+pub type hp_progress = Option<unsafe extern "C" fn(finished: f64, user: *mut c_void) -> c_int>;
+
+/// What to compute and how. NULL in place of it means all defaults.
+///
+/// Fill it with hp_options_init(), then change fields. It is only read, and not kept; several
+/// threads may use the same one if its callback allows that. Parameters that the medium does not
+/// use are ignored.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hp_options {
+    /// sizeof(hp_options).
+    pub struct_size: u32,
+    /// One of HP_MEDIUM_...; HP_MEDIUM_CONDUCTIVITY by default.
+    pub medium: u32,
+    /// For conductivity and combined: how strongly unlike grey values are held back. Positive;
+    /// 3 by default.
+    pub power: f64,
+    /// For conductivity, combined and edges: what keeps the medium above zero. Positive; 0.001 by
+    /// default.
+    pub floor: f64,
+    /// For Perona-Malik and combined: the gradient, in grey values (full range 1) per pixel, at
+    /// which heat is held back. Positive; 0.03 by default.
+    pub contrast: f64,
+    /// For Perona-Malik and combined: HP_EDGE_STOP_EXPONENTIAL, the default, or
+    /// HP_EDGE_STOP_RATIONAL.
+    pub edge_stop: u32,
+    /// For all media but uniform and conductivity: one of HP_FORM_...
+    pub form: u32,
+    /// For Perona-Malik, combined and edges: the standard deviation, in pixels, of the Gaussian
+    /// before the gradient. 0, the default, is none.
+    pub smoothing: f64,
+    /// The pixel value that becomes grey value 0. Not a number (NAN), the default, stands for 0 if
+    /// pixels are HP_U8 or HP_U16, and else for the smallest value of the image.
+    pub range_low: f64,
+    /// The pixel value that becomes grey value 1. Not a number (NAN), the default, stands for the
+    /// largest value of the type if pixels are HP_U8 or HP_U16, and else for that of the image.
+    pub range_high: f64,
+    /// The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
+    /// longest side of the image, unless a time is given.
+    pub iterations: u64,
+    /// The time for which heat flows, in units of the smallest spacing squared; steps are shortened
+    /// to fit. 0, the default, leaves it to the iterations.
+    pub time: f64,
+    /// The time step, in units of the smallest spacing squared; 0.2 by default, and 0 takes a
+    /// safe fraction of the largest one that the medium allows.
+    pub step: f64,
+    /// HP_NORMALIZED, the default, or HP_VARADHAN.
+    pub estimator: u32,
+    /// The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
+    /// thread alone. Results do not depend on it.
+    pub threads: u32,
+    /// Is told how far the computation is, and may cancel it. NULL by default.
+    pub progress: hp_progress,
+    /// What the progress callback gets as its second argument.
+    pub user: *mut c_void,
+}
+
+// SAFETY: integers, floats and pointers of which any can be NULL; pointers in pairs at the end.
+unsafe impl Versioned for hp_options {
+    const NAME: &'static str = "hp_options";
+    const SHORTEST: usize = 8;
+
+    fn defaults() -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            medium: HP_MEDIUM_CONDUCTIVITY,
+            power: 3.0,
+            floor: 1e-3,
+            contrast: 0.03,
+            edge_stop: HP_EDGE_STOP_EXPONENTIAL,
+            form: HP_FORM_DEFAULT,
+            smoothing: 0.0,
+            range_low: f64::NAN,
+            range_high: f64::NAN,
+            iterations: 0,
+            time: 0.0,
+            step: Step::DEFAULT,
+            estimator: HP_NORMALIZED,
+            threads: 0,
+            progress: None,
+            user: std::ptr::null_mut(),
+        }
+    }
+}
+
+/// Fills *options with the defaults; struct_size is sizeof(hp_options).
+///
+/// # Safety
+/// `options` is NULL or points to `struct_size` writable bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_options_init(options: *mut hp_options, struct_size: u32) -> hp_status {
+    // SAFETY: the caller promises the bytes.
+    guard(|| unsafe { structs::write(options, struct_size, &hp_options::defaults(), "options") })
+}

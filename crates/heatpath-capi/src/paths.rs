@@ -1,0 +1,248 @@
+//! Minimal paths.
+
+use crate::buffer::hp_buffer;
+use crate::options::hp_options;
+use crate::problem::{Arguments, Problem, read_points};
+use crate::status::{Failure, guard, hp_status};
+use crate::structs::{self, Versioned, check_pointer};
+use heatpath_core::grid::check_points;
+use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
+
+/// The path ends at a source.
+pub const HP_ENDED_SOURCE: u32 = 1;
+/// There is no path: walls separate the end point from every source.
+pub const HP_ENDED_UNREACHABLE: u32 = 2;
+/// There is no path: no heat has arrived at the end point. More iterations would bring it there.
+pub const HP_ENDED_NOT_REACHED: u32 = 3;
+/// The path was given up on the way, after more steps than the image should need.
+pub const HP_ENDED_STEP_LIMIT: u32 = 4;
+
+/// Heat's part in the progress of paths.
+const HEAT_SHARE: f64 = 0.9;
+
+/// Paths, one for each end point, in the order of the end points.
+///
+/// Made by hp_paths_create() and freed by hp_paths_free(). It does not change, so any number of
+/// threads may use it at once, and any thread may free it once the others are done.
+pub struct hp_paths {
+    paths: Vec<Path<2>>,
+}
+
+/// What is known about a path besides its points. Set struct_size, then call hp_paths_info().
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct hp_path_info {
+    /// sizeof(hp_path_info).
+    pub struct_size: u32,
+    /// One of HP_ENDED_...
+    pub ending: u32,
+    /// Which of the sources the path ends at, counted from 0; -1 if at none.
+    pub source: i64,
+    /// The number of points, at least 1.
+    pub point_count: u64,
+    /// The length in pixels.
+    pub length: f64,
+    /// The length in physical units.
+    pub physical_length: f64,
+    /// The distance of the end point from the sources, infinite if the path reaches none.
+    pub distance: f64,
+}
+
+// SAFETY: integers and floats, 8-byte numbers at the end.
+unsafe impl Versioned for hp_path_info {
+    const NAME: &'static str = "hp_path_info";
+    const SHORTEST: usize = 8;
+
+    fn defaults() -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            ending: 0,
+            source: -1,
+            point_count: 0,
+            length: 0.0,
+            physical_length: 0.0,
+            distance: f64::INFINITY,
+        }
+    }
+}
+
+/// Traces the minimal path from each end point to a source.
+///
+/// image, mask, sources, source_count and options are those of hp_distance().
+///
+/// ends: end_count pairs x, y in pixel coordinates.
+///
+/// paths: receives the paths, to be freed with hp_paths_free(), or NULL if anything but HP_OK is
+/// returned.
+///
+/// An end point from which no source can be reached is not an error: hp_path_info tells.
+///
+/// # Safety
+/// The structs are as large as their `struct_size` says, and buffers and points are as large as
+/// their description.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_paths_create(
+    image: *const hp_buffer,
+    mask: *const hp_buffer,
+    sources: *const f64,
+    source_count: u64,
+    ends: *const f64,
+    end_count: u64,
+    options: *const hp_options,
+    paths: *mut *mut hp_paths,
+) -> hp_status {
+    let arguments = Arguments { image, mask, sources, source_count, options };
+    guard(|| {
+        check_pointer(paths, "paths")?;
+        // SAFETY: the caller promises room for a pointer; it is aligned.
+        unsafe { paths.write(std::ptr::null_mut()) };
+        // SAFETY: the caller's promise.
+        let traced = unsafe { trace(&arguments, &read_points(ends, end_count, "ends")?)? };
+        // SAFETY: as above.
+        unsafe { paths.write(Box::into_raw(Box::new(hp_paths { paths: traced }))) };
+        Ok(())
+    })
+}
+
+/// # Safety
+/// As [`hp_paths_create`].
+unsafe fn trace(arguments: &Arguments, ends: &[[f64; 2]]) -> Result<Vec<Path<2>>, Failure> {
+    // SAFETY: the caller's promise.
+    let problem = unsafe { Problem::read(arguments)? };
+    check_points("end", ends, problem.mask())?;
+    let heat = problem.flow(HEAT_SHARE)?;
+    let distances = problem.distances(&heat);
+    let descent = Descent::new(&heat);
+    let mut paths = Vec::with_capacity(ends.len());
+    for (number, &end) in ends.iter().enumerate() {
+        let traced = number as f64 / ends.len() as f64;
+        problem.progress().check(HEAT_SHARE + (1.0 - HEAT_SHARE) * traced)?;
+        paths.push(descent.path(end, &distances, PathOptions::default())?);
+    }
+    problem.progress().check(1.0)?;
+    Ok(paths)
+}
+
+/// Frees paths; NULL is fine.
+///
+/// # Safety
+/// `paths` is NULL or comes from hp_paths_create() and was not freed yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_paths_free(paths: *mut hp_paths) {
+    guard(|| {
+        if !paths.is_null() {
+            check_pointer(paths, "paths")?;
+            // SAFETY: made by `Box::into_raw`, and freed once, as the caller promises.
+            drop(unsafe { Box::from_raw(paths) });
+        }
+        Ok(())
+    });
+}
+
+/// Writes the number of paths to *count.
+///
+/// # Safety
+/// `paths` is NULL or comes from hp_paths_create(); `count` is NULL or points to a uint64_t.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_paths_count(paths: *const hp_paths, count: *mut u64) -> hp_status {
+    guard(|| {
+        check_pointer(count, "count")?;
+        // SAFETY: the caller's promise; the pointers were checked.
+        unsafe { count.write(borrow(paths)?.paths.len() as u64) };
+        Ok(())
+    })
+}
+
+/// Writes what is known about a path to *info, whose struct_size must be set.
+///
+/// # Safety
+/// `paths` is NULL or comes from hp_paths_create(); `info` is NULL or points to as many bytes as
+/// its `struct_size` says.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_paths_info(
+    paths: *const hp_paths,
+    index: u64,
+    info: *mut hp_path_info,
+) -> hp_status {
+    guard(|| {
+        // SAFETY: the caller's promise.
+        let path = unsafe { one_of(paths, index)? };
+        // SAFETY: the caller's promise.
+        unsafe { structs::answer(info, &describe(path), "info") }
+    })
+}
+
+fn describe(path: &Path<2>) -> hp_path_info {
+    let (ending, source) = match path.ending {
+        Ending::Source(number) => (HP_ENDED_SOURCE, number as i64),
+        Ending::Unreachable => (HP_ENDED_UNREACHABLE, -1),
+        Ending::NotReached => (HP_ENDED_NOT_REACHED, -1),
+        Ending::StepLimit => (HP_ENDED_STEP_LIMIT, -1),
+    };
+    hp_path_info {
+        ending,
+        source,
+        point_count: path.points.len() as u64,
+        length: path.length,
+        physical_length: path.physical_length,
+        distance: path.distance,
+        ..hp_path_info::defaults()
+    }
+}
+
+/// Copies the points of a path, pairs x, y in pixel coordinates, from the end point to the source.
+///
+/// xy: receives twice as many doubles as hp_path_info.point_count says.
+///
+/// capacity: how many points xy has room for. If it is too small nothing is written.
+///
+/// # Safety
+/// `paths` is NULL or comes from hp_paths_create(); `xy` is NULL or has room for twice `capacity`
+/// doubles.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_paths_points(
+    paths: *const hp_paths,
+    index: u64,
+    xy: *mut f64,
+    capacity: u64,
+) -> hp_status {
+    guard(|| {
+        // SAFETY: the caller's promise.
+        let points = unsafe { &one_of(paths, index)?.points };
+        if xy.is_null() {
+            return Err(Failure::argument("xy is NULL"));
+        }
+        if (points.len() as u64) > capacity {
+            return Err(Failure::argument(format!(
+                "capacity is {capacity}, but path {index} has {} points",
+                points.len()
+            )));
+        }
+        // SAFETY: `xy` has room for these points, as the caller promises; bytes need no alignment.
+        unsafe {
+            let bytes = size_of_val(points.as_slice());
+            xy.cast::<u8>().copy_from_nonoverlapping(points.as_ptr().cast(), bytes);
+        }
+        Ok(())
+    })
+}
+
+/// # Safety
+/// `paths` is NULL or points to paths that live as long as they are borrowed.
+unsafe fn borrow<'a>(paths: *const hp_paths) -> Result<&'a hp_paths, Failure> {
+    check_pointer(paths, "paths")?;
+    // SAFETY: not NULL, aligned, and the caller's promise.
+    Ok(unsafe { &*paths })
+}
+
+/// # Safety
+/// As [`borrow`].
+unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Path<2>, Failure> {
+    // SAFETY: the caller's promise.
+    let paths = unsafe { &borrow(paths)?.paths };
+    let found = usize::try_from(index).ok().and_then(|index| paths.get(index));
+    found.ok_or_else(|| {
+        let count = paths.len();
+        Failure::argument(format!("path {index} does not exist: there are {count}, from 0"))
+    })
+}

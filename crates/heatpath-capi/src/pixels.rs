@@ -1,0 +1,91 @@
+//! From the caller's pixels to numbers and back, row by row.
+
+use crate::status::{Failure, HP_INVALID_BUFFER, HP_PANIC};
+use crate::view::{Sample, View};
+use heatpath_core::grid::Grid;
+use std::mem::size_of;
+
+/// The pixels as numbers.
+///
+/// # Safety
+/// All pixels that the view describes can be read.
+pub(crate) unsafe fn read(view: &View) -> Result<Grid<f64, 2>, Failure> {
+    view.check_data()?;
+    // SAFETY: the caller's promise, and the type that the view names.
+    let values = unsafe {
+        match view.sample {
+            Sample::U8 => read_as::<u8>(view),
+            Sample::I8 => read_as::<i8>(view),
+            Sample::U16 => read_as::<u16>(view),
+            Sample::I16 => read_as::<i16>(view),
+            Sample::U32 => read_as::<u32>(view),
+            Sample::I32 => read_as::<i32>(view),
+            Sample::F32 => read_as::<f32>(view),
+            Sample::F64 => read_as::<f64>(view),
+        }
+    };
+    Grid::from_values(view.shape, values).map_err(|error| Failure::new(HP_PANIC, error.to_string()))
+}
+
+/// # Safety
+/// All pixels that the view describes can be read, and are of type `T`.
+unsafe fn read_as<T: Copy + Into<f64>>(view: &View) -> Vec<f64> {
+    let [columns, rows] = view.shape.size();
+    let mut values = Vec::with_capacity(columns * rows);
+    for y in 0..rows {
+        let row = row(view, y);
+        if view.stride[0] == size_of::<T>() as isize {
+            let row = row.cast::<T>();
+            // SAFETY: a pixel of this row, as the caller promises; a load that needs no alignment.
+            values.extend((0..columns).map(|x| unsafe { row.add(x).read_unaligned() }.into()));
+        } else {
+            let at = |x: usize| row.wrapping_offset(x as isize * view.stride[0]).cast::<T>();
+            // SAFETY: as above.
+            values.extend((0..columns).map(|x| unsafe { at(x).read_unaligned() }.into()));
+        }
+    }
+    values
+}
+
+/// Refuses a buffer that distances cannot be written to.
+pub(crate) fn check_writable(view: &View) -> Result<(), Failure> {
+    view.check_data()?;
+    if matches!(view.sample, Sample::F32 | Sample::F64) {
+        return Ok(());
+    }
+    let message = "its type must be HP_F32 or HP_F64";
+    Err(Failure::new(HP_INVALID_BUFFER, message).of(view.name))
+}
+
+/// Stores `values`, x fastest, into the caller's pixels, which passed [`check_writable`].
+///
+/// # Safety
+/// All pixels that the view describes can be written.
+pub(crate) unsafe fn write(view: &View, values: &[f64]) {
+    // SAFETY: the caller's promise, and the type that the view names.
+    unsafe {
+        if view.sample == Sample::F32 {
+            write_as(view, values, |value| value as f32);
+        } else {
+            write_as(view, values, |value| value);
+        }
+    }
+}
+
+/// # Safety
+/// All pixels that the view describes can be written, and are of type `T`.
+unsafe fn write_as<T>(view: &View, values: &[f64], convert: impl Fn(f64) -> T) {
+    for (y, values) in values.chunks_exact(view.shape.size()[0]).enumerate() {
+        let row = row(view, y);
+        for (x, &value) in values.iter().enumerate() {
+            let pixel = row.wrapping_offset(x as isize * view.stride[0]).cast::<T>();
+            // SAFETY: a pixel of this row, as the caller promises; a store that needs no alignment.
+            unsafe { pixel.write_unaligned(convert(value)) };
+        }
+    }
+}
+
+/// The first pixel of row `y`.
+fn row(view: &View, y: usize) -> *mut u8 {
+    view.data.wrapping_offset(y as isize * view.stride[1])
+}

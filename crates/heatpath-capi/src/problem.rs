@@ -1,0 +1,230 @@
+//! What all computations have in common: the caller's image, walls, sources and options.
+
+use crate::buffer::hp_buffer;
+use crate::options::hp_options;
+use crate::pixels;
+use crate::progress::Progress;
+use crate::settings::{Estimator, Recipe, Settings};
+use crate::status::{Failure, HP_OUT_OF_MEMORY};
+use crate::view::View;
+use heatpath_core::Exec;
+use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
+use heatpath_core::grid::heat::{Explicit, Heat};
+use heatpath_core::grid::medium::{self, Medium, MediumError};
+use heatpath_core::grid::{Grid, Mask, Shape, Sources};
+
+/// What a computation needs at most, in bytes for each pixel.
+const BYTES_PER_PIXEL: usize = 160;
+
+/// The arguments that all computations begin with.
+pub(crate) struct Arguments {
+    pub(crate) image: *const hp_buffer,
+    pub(crate) mask: *const hp_buffer,
+    pub(crate) sources: *const f64,
+    pub(crate) source_count: u64,
+    pub(crate) options: *const hp_options,
+}
+
+/// A medium and the sources in it.
+pub(crate) struct Problem {
+    medium: Medium<2>,
+    sources: Sources<2>,
+    settings: Settings,
+}
+
+impl Problem {
+    /// Reads and checks everything.
+    ///
+    /// # Safety
+    /// The pointers are NULL, misaligned, or point to what the header asks for.
+    pub(crate) unsafe fn read(arguments: &Arguments) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise, for each of the pointers.
+        unsafe {
+            let settings = Settings::read(arguments.options)?;
+            let image = View::read(arguments.image, "image")?;
+            let points = read_points(arguments.sources, arguments.source_count, "sources")?;
+            check_memory(image.shape)?;
+            let mask = read_mask(arguments.mask, image.shape)?;
+            let sources = Sources::new(&points, &mask)?;
+            let medium = make_medium(&image, &sources, &settings)?.with_walls(mask)?;
+            Ok(Self { medium, sources, settings })
+        }
+    }
+
+    pub(crate) fn mask(&self) -> &Mask<2> {
+        self.medium.mask()
+    }
+
+    pub(crate) fn progress(&self) -> &Progress {
+        &self.settings.progress
+    }
+
+    /// Lets heat flow; `share` is its part of all the work, for the progress.
+    pub(crate) fn flow(&self, share: f64) -> Result<Heat<2>, Failure> {
+        let exec = match self.settings.threads {
+            1 => Exec::single_threaded(),
+            threads => Exec::new(threads)?,
+        };
+        let progress = self.progress();
+        let exec = exec.with_watch(|finished| progress.report(share * finished));
+        let explicit = Explicit::new(&self.medium, self.settings.heat)?;
+        Ok(match self.settings.estimator {
+            Estimator::Normalized => explicit.flow_balanced(&self.sources, &exec)?,
+            Estimator::Varadhan => explicit.flow(&self.sources, &exec)?,
+        })
+    }
+
+    /// Reads distances from heat.
+    pub(crate) fn distances(&self, heat: &Heat<2>) -> DistanceMap<2> {
+        match self.settings.estimator {
+            Estimator::Normalized => normalized(heat),
+            Estimator::Varadhan => varadhan(heat),
+        }
+    }
+}
+
+/// Copies `count` points of the caller.
+///
+/// # Safety
+/// `points` is NULL or points to twice `count` readable doubles; they need not be aligned.
+pub(crate) unsafe fn read_points(
+    points: *const f64,
+    count: u64,
+    name: &str,
+) -> Result<Vec<[f64; 2]>, Failure> {
+    if count == 0 {
+        return Ok(Vec::new());
+    }
+    if points.is_null() {
+        return Err(Failure::argument(format!("{name} is NULL but there are {count} of them")));
+    }
+    let largest = isize::MAX as usize / size_of::<[f64; 2]>();
+    let Some(count) = usize::try_from(count).ok().filter(|&count| count <= largest) else {
+        return Err(Failure::argument(format!(
+            "{name}: {count} points are more than memory holds"
+        )));
+    };
+    let mut copy = Vec::new();
+    copy.try_reserve_exact(count).map_err(|_| {
+        Failure::new(HP_OUT_OF_MEMORY, format!("{name}: there is no memory for {count} points"))
+    })?;
+    let points = points.cast::<[f64; 2]>();
+    // SAFETY: the caller promises `count` points; loads that need no alignment.
+    copy.extend((0..count).map(|i| unsafe { points.add(i).read_unaligned() }));
+    Ok(copy)
+}
+
+/// Refuses images so large that the computation would run out of memory, which no library
+/// survives. Nothing is touched: the operating system only says whether it could be had.
+fn check_memory(shape: Shape<2>) -> Result<(), Failure> {
+    let bytes = shape.cells().checked_mul(BYTES_PER_PIXEL);
+    let enough = bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
+    if enough {
+        return Ok(());
+    }
+    let [columns, rows] = shape.size();
+    Err(Failure::new(
+        HP_OUT_OF_MEMORY,
+        format!(
+            "image: {columns} x {rows} pixels need up to {BYTES_PER_PIXEL} bytes each, more \
+             memory than there is"
+        ),
+    ))
+}
+
+/// # Safety
+/// `mask` is NULL, misaligned, or points to a description of readable pixels.
+unsafe fn read_mask(mask: *const hp_buffer, shape: Shape<2>) -> Result<Mask<2>, Failure> {
+    if mask.is_null() {
+        return Ok(Mask::all_open(shape));
+    }
+    // SAFETY: the caller's promise.
+    let view = unsafe { View::read(mask, "mask")? };
+    let (mask, image) = (view.shape.size(), shape.size());
+    if mask != image {
+        return Err(MediumError::MaskSize { mask: mask.to_vec(), image: image.to_vec() }.into());
+    }
+    // SAFETY: the caller's promise.
+    let values = unsafe { pixels::read(&view)? };
+    if let Some(position) = values.values().iter().position(|value| value.is_nan()) {
+        return Err(view.bad_pixel(position, f64::NAN));
+    }
+    Ok(Mask::new(values.map(|&value| value != 0.0)))
+}
+
+/// # Safety
+/// The view's pixels can be read.
+unsafe fn make_medium(
+    image: &View,
+    sources: &Sources<2>,
+    settings: &Settings,
+) -> Result<Medium<2>, Failure> {
+    // SAFETY: the caller's promise.
+    let grey = || unsafe { read_grey(image, settings.range) };
+    let medium = match settings.recipe {
+        Recipe::Uniform => Ok(medium::uniform(image.shape)),
+        Recipe::Given(form) => {
+            // SAFETY: the caller's promise.
+            let field = unsafe { read_finite(image)? };
+            return medium::given(field, form).map_err(|error| Failure::from(error).of("image"));
+        }
+        Recipe::Conductivity(options) => {
+            let grey = grey()?;
+            medium::conductivity(&grey, &sources.values(&grey), options)
+        }
+        Recipe::PeronaMalik(options) => medium::perona_malik(&grey()?, options),
+        Recipe::Combined(conductivity, perona_malik) => {
+            let grey = grey()?;
+            medium::combined(&grey, &sources.values(&grey), conductivity, perona_malik)
+        }
+        Recipe::Edges(options) => medium::edges(&grey()?, options),
+    };
+    // The image was checked, so this is about a parameter.
+    medium.map_err(|error| Failure::from(error).of("options"))
+}
+
+/// # Safety
+/// The view's pixels can be read.
+unsafe fn read_finite(image: &View) -> Result<Grid<f64, 2>, Failure> {
+    // SAFETY: the caller's promise.
+    let grid = unsafe { pixels::read(image)? };
+    grid.check_finite().map_err(|error| Failure::from(error).of("image"))?;
+    Ok(grid)
+}
+
+/// The image as grey values from 0 to 1.
+///
+/// # Safety
+/// The view's pixels can be read.
+unsafe fn read_grey(image: &View, range: [Option<f64>; 2]) -> Result<Grid<f64, 2>, Failure> {
+    // SAFETY: the caller's promise.
+    let mut grid = unsafe { read_finite(image)? };
+    let (values, white) = (grid.values_mut(), image.sample.white());
+    let smallest = || values.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = || values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = range[0].unwrap_or_else(|| white.map_or_else(smallest, |_| 0.0));
+    let high = range[1].unwrap_or_else(|| white.unwrap_or_else(largest));
+    let usable = low.is_finite() && high.is_finite() && low < high;
+    // An image of one value only has no natural range, and is 0 everywhere.
+    if !usable && range != [None, None] {
+        return Err(Failure::argument(format!(
+            "options: the range from {low} to {high} is empty; range_low must be a finite number \
+             below range_high"
+        )));
+    }
+    values.iter_mut().for_each(|value| *value = fraction(*value, low, high));
+    Ok(grid)
+}
+
+/// Where `value` lies between `low` (0) and `high` (1); 0 if these are equal.
+fn fraction(value: f64, low: f64, high: f64) -> f64 {
+    if high <= low {
+        return 0.0;
+    }
+    let width = high - low;
+    if width.is_finite() {
+        return ((value - low) / width).clamp(0.0, 1.0);
+    }
+    // The difference of the two largest numbers overflows; that of their halves does not.
+    ((0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)).clamp(0.0, 1.0)
+}

@@ -1,0 +1,172 @@
+//! The caller's options in the engine's words, checked.
+
+use crate::options::{
+    HP_EDGE_STOP_EXPONENTIAL, HP_EDGE_STOP_RATIONAL, HP_FORM_DEFAULT, HP_FORM_DIVERGENCE,
+    HP_FORM_POINTWISE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY, HP_MEDIUM_EDGES,
+    HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_VARADHAN,
+    hp_options,
+};
+use crate::progress::Progress;
+use crate::status::Failure;
+use crate::structs::{self, Versioned};
+use heatpath_core::grid::heat::{Duration, FaceMean, HeatOptions, Step};
+use heatpath_core::grid::medium::{
+    ConductivityOptions, EdgeStop, EdgesOptions, Form, PeronaMalikOptions,
+};
+
+/// The largest number of threads that can be asked for.
+const MOST_THREADS: u32 = 1024;
+
+/// A medium with its parameters.
+pub(crate) enum Recipe {
+    Uniform,
+    Conductivity(ConductivityOptions),
+    PeronaMalik(PeronaMalikOptions),
+    Combined(ConductivityOptions, PeronaMalikOptions),
+    Edges(EdgesOptions),
+    Given(Form),
+}
+
+/// How heat is read as distance.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Estimator {
+    Normalized,
+    Varadhan,
+}
+
+/// The options, in the engine's words.
+pub(crate) struct Settings {
+    pub(crate) recipe: Recipe,
+    /// What becomes 0 and 1; `None` stands for the natural value.
+    pub(crate) range: [Option<f64>; 2],
+    pub(crate) heat: HeatOptions,
+    pub(crate) estimator: Estimator,
+    pub(crate) threads: usize,
+    pub(crate) progress: Progress,
+}
+
+impl Settings {
+    /// Reads the caller's options.
+    ///
+    /// # Safety
+    /// `options` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
+    pub(crate) unsafe fn read(options: *const hp_options) -> Result<Self, Failure> {
+        let options = if options.is_null() {
+            hp_options::defaults()
+        } else {
+            // SAFETY: the caller's promise.
+            unsafe { structs::read(options, "options")? }
+        };
+        Self::new(&options).map_err(|failure| failure.of("options"))
+    }
+
+    fn new(options: &hp_options) -> Result<Self, Failure> {
+        if options.threads > MOST_THREADS {
+            let threads = options.threads;
+            let message = format!("threads is {threads}; it must be at most {MOST_THREADS}");
+            return Err(Failure::argument(message));
+        }
+        let estimator = match options.estimator {
+            HP_NORMALIZED => Estimator::Normalized,
+            HP_VARADHAN => Estimator::Varadhan,
+            other => return Err(unknown("estimator", other, "HP_NORMALIZED or HP_VARADHAN")),
+        };
+        Ok(Self {
+            recipe: options.recipe()?,
+            range: [options.range_low, options.range_high].map(|v| (!v.is_nan()).then_some(v)),
+            heat: options.heat()?,
+            estimator,
+            threads: options.threads as usize,
+            progress: Progress::new(options.progress, options.user),
+        })
+    }
+}
+
+impl hp_options {
+    fn recipe(&self) -> Result<Recipe, Failure> {
+        let conductivity = ConductivityOptions { power: self.power, floor: self.floor };
+        let form = self.form()?;
+        let perona_malik = PeronaMalikOptions {
+            contrast: self.contrast,
+            edge_stop: self.edge_stop()?,
+            smoothing: self.smoothing,
+            form: form.unwrap_or_default(),
+        };
+        let edges = EdgesOptions {
+            floor: self.floor,
+            smoothing: self.smoothing,
+            form: form.unwrap_or_default(),
+        };
+        Ok(match self.medium {
+            HP_MEDIUM_UNIFORM => Recipe::Uniform,
+            HP_MEDIUM_CONDUCTIVITY => Recipe::Conductivity(conductivity),
+            HP_MEDIUM_PERONA_MALIK => Recipe::PeronaMalik(perona_malik),
+            HP_MEDIUM_COMBINED => Recipe::Combined(conductivity, perona_malik),
+            HP_MEDIUM_EDGES => Recipe::Edges(edges),
+            HP_MEDIUM_GIVEN => Recipe::Given(form.unwrap_or(Form::Pointwise)),
+            other => return Err(unknown("medium", other, "one of HP_MEDIUM_... (1 to 6)")),
+        })
+    }
+
+    fn form(&self) -> Result<Option<Form>, Failure> {
+        match self.form {
+            HP_FORM_DEFAULT => Ok(None),
+            HP_FORM_DIVERGENCE => Ok(Some(Form::Divergence)),
+            HP_FORM_POINTWISE => Ok(Some(Form::Pointwise)),
+            other => Err(unknown("form", other, "one of HP_FORM_... (0 to 2)")),
+        }
+    }
+
+    fn edge_stop(&self) -> Result<EdgeStop, Failure> {
+        match self.edge_stop {
+            HP_EDGE_STOP_EXPONENTIAL => Ok(EdgeStop::Exponential),
+            HP_EDGE_STOP_RATIONAL => Ok(EdgeStop::Rational),
+            other => Err(unknown("edge_stop", other, "one of HP_EDGE_STOP_... (1 or 2)")),
+        }
+    }
+
+    fn heat(&self) -> Result<HeatOptions, Failure> {
+        let iterations = usize::try_from(self.iterations).unwrap_or(usize::MAX);
+        let duration = match (iterations, self.time) {
+            (0, 0.0) => Duration::TwiceLongestSide,
+            (0, time) => Duration::Time(time),
+            (iterations, 0.0) => Duration::Iterations(iterations),
+            (iterations, time) => {
+                return Err(Failure::argument(format!(
+                    "iterations is {iterations} and time is {time}; one of them must be 0"
+                )));
+            }
+        };
+        let step = if self.step == 0.0 { Step::Auto } else { Step::Fixed(self.step) };
+        Ok(HeatOptions { duration, step, face_mean: FaceMean::default() })
+    }
+}
+
+fn unknown(field: &str, number: u32, right: &str) -> Failure {
+    Failure::argument(format!("{field} is {number}; it must be {right}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_those_of_the_engine() {
+        let settings = Settings::new(&hp_options::defaults()).map_err(|f| f.message).unwrap();
+        assert_eq!(settings.heat, HeatOptions::default());
+        assert!(matches!(
+            settings.recipe,
+            Recipe::Conductivity(options) if options == ConductivityOptions::default()
+        ));
+        let all = hp_options { medium: HP_MEDIUM_COMBINED, ..hp_options::defaults() };
+        assert!(matches!(
+            all.recipe(),
+            Ok(Recipe::Combined(_, options)) if options == PeronaMalikOptions::default()
+        ));
+        let edges = hp_options { medium: HP_MEDIUM_EDGES, ..hp_options::defaults() };
+        assert!(matches!(
+            edges.recipe(),
+            Ok(Recipe::Edges(options)) if options == EdgesOptions::default()
+        ));
+    }
+}

@@ -1,0 +1,219 @@
+//! The caller's description of pixels, checked.
+
+use crate::buffer::{HP_F32, HP_F64, HP_I8, HP_I16, HP_I32, HP_U8, HP_U16, HP_U32, hp_buffer};
+use crate::status::{Failure, HP_INVALID_BUFFER, HP_INVALID_IMAGE, HP_UNSUPPORTED};
+use crate::structs;
+use heatpath_core::grid::Shape;
+
+/// The type of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Sample {
+    U8,
+    I8,
+    U16,
+    I16,
+    U32,
+    I32,
+    F32,
+    F64,
+}
+
+impl Sample {
+    fn new(number: u32) -> Option<Self> {
+        Some(match number {
+            HP_U8 => Self::U8,
+            HP_I8 => Self::I8,
+            HP_U16 => Self::U16,
+            HP_I16 => Self::I16,
+            HP_U32 => Self::U32,
+            HP_I32 => Self::I32,
+            HP_F32 => Self::F32,
+            HP_F64 => Self::F64,
+            _ => return None,
+        })
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Self::U8 | Self::I8 => 1,
+            Self::U16 | Self::I16 => 2,
+            Self::U32 | Self::I32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// The value that stands for white, where the type alone says it.
+    pub(crate) fn white(self) -> Option<f64> {
+        match self {
+            Self::U8 => Some(f64::from(u8::MAX)),
+            Self::U16 => Some(f64::from(u16::MAX)),
+            _ => None,
+        }
+    }
+}
+
+/// A buffer whose description makes sense.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    pub(crate) name: &'static str,
+    pub(crate) data: *mut u8,
+    pub(crate) sample: Sample,
+    pub(crate) shape: Shape<2>,
+    /// In bytes.
+    pub(crate) stride: [isize; 2],
+}
+
+impl View {
+    /// Reads and checks a description; `name` stands in messages.
+    ///
+    /// # Safety
+    /// `buffer` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
+    pub(crate) unsafe fn read(
+        buffer: *const hp_buffer,
+        name: &'static str,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let buffer = unsafe { structs::read(buffer, name)? };
+        Self::new(&buffer, name).map_err(|failure| failure.of(name))
+    }
+
+    fn new(buffer: &hp_buffer, name: &'static str) -> Result<Self, Failure> {
+        let invalid = |message: String| Failure::new(HP_INVALID_BUFFER, message);
+        if buffer.dimension == 3 {
+            let message = "dimension is 3: this version of heatpath takes only 2-D images";
+            return Err(Failure::new(HP_UNSUPPORTED, message));
+        }
+        if buffer.dimension != 2 {
+            return Err(invalid(format!("dimension is {}; it must be 2", buffer.dimension)));
+        }
+        if buffer.reserved != 0 {
+            return Err(invalid(format!("reserved is {}; it must be 0", buffer.reserved)));
+        }
+        let Some(sample) = Sample::new(buffer.r#type) else {
+            return Err(invalid(format!(
+                "type is {}; it must be one of HP_U8 ({HP_U8}) to HP_F64 ({HP_F64})",
+                buffer.r#type
+            )));
+        };
+        // A number that no usize holds is refused as too large in any case.
+        let size = [0, 1].map(|axis| usize::try_from(buffer.size[axis]).unwrap_or(usize::MAX));
+        let shape = Shape::with_spacing(size, [buffer.spacing[0], buffer.spacing[1]])?;
+        let stride = strides(buffer, sample, size)?;
+        let view = Self { name, data: buffer.data.cast(), sample, shape, stride };
+        view.check_extent()?;
+        Ok(view)
+    }
+
+    /// Refuses NULL for pixels that are needed.
+    pub(crate) fn check_data(&self) -> Result<(), Failure> {
+        if self.data.is_null() {
+            let message = "data is NULL; it must point to the first pixel";
+            return Err(Failure::new(HP_INVALID_BUFFER, message).of(self.name));
+        }
+        Ok(())
+    }
+
+    /// Refuses pixels that overlap, and those that would lie outside of all memory.
+    fn check_extent(&self) -> Result<(), Failure> {
+        let (size, stride) = (self.shape.size(), self.stride.map(isize::unsigned_abs));
+        let [near, far] = if stride[0] <= stride[1] { [0, 1] } else { [1, 0] };
+        let outside =
+            || Failure::new(HP_INVALID_BUFFER, "the strides lead to pixels outside of all memory");
+        // === How many bytes the pixels of one line take, then those of all lines
+        let mut extent = self.sample.bytes();
+        for axis in [near, far].into_iter().filter(|&axis| size[axis] > 1) {
+            if stride[axis] < extent {
+                return Err(Failure::new(
+                    HP_INVALID_BUFFER,
+                    format!(
+                        "byte_stride[{axis}] is {}, but that must be at least {extent} bytes or \
+                         pixels would overlap",
+                        self.stride[axis]
+                    ),
+                ));
+            }
+            let steps = stride[axis].checked_mul(size[axis] - 1);
+            extent = steps.and_then(|n| n.checked_add(extent)).ok_or_else(outside)?;
+        }
+        // === Pixels lie on both sides of the first one if strides differ in sign
+        let address = self.data.addr();
+        let room = isize::MAX as usize;
+        let fits = extent <= room
+            && (self.data.is_null()
+                || (address.checked_add(extent).is_some() && self.reach_below() <= address));
+        if fits { Ok(()) } else { Err(outside()) }
+    }
+
+    /// How many bytes before the first pixel the lowest one lies.
+    fn reach_below(&self) -> usize {
+        let negative = (0..2).filter(|&axis| self.stride[axis] < 0);
+        negative.map(|axis| self.stride[axis].unsigned_abs() * (self.shape.size()[axis] - 1)).sum()
+    }
+
+    /// A failure at the pixel stored as number `position`.
+    pub(crate) fn bad_pixel(&self, position: usize, value: f64) -> Failure {
+        let [x, y] = self.shape.index(position);
+        let message = format!("the value at [{x}, {y}] is {value}; it must be a number");
+        Failure::new(HP_INVALID_IMAGE, message).of(self.name)
+    }
+}
+
+/// The strides in bytes, those left at zero worked out.
+fn strides(buffer: &hp_buffer, sample: Sample, size: [usize; 2]) -> Result<[isize; 2], Failure> {
+    let too_far = |axis: usize| {
+        let message = format!("byte_stride[{axis}] is {}, too far", buffer.byte_stride[axis]);
+        Failure::new(HP_INVALID_BUFFER, message)
+    };
+    let given = |axis: usize| isize::try_from(buffer.byte_stride[axis]).map_err(|_| too_far(axis));
+    let x = if given(0)? == 0 { sample.bytes() as isize } else { given(0)? };
+    let row = x.checked_abs().and_then(|x| x.checked_mul(size[0] as isize));
+    let row = row.map(|row| row.max(sample.bytes() as isize));
+    let y = if given(1)? == 0 { row.ok_or_else(|| too_far(0))? } else { given(1)? };
+    Ok([x, y])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structs::Versioned;
+
+    fn buffer(size: [u64; 2], stride: [i64; 2]) -> hp_buffer {
+        let mut buffer = hp_buffer { r#type: HP_U16, ..hp_buffer::defaults() };
+        buffer.data = std::ptr::without_provenance_mut(4096);
+        buffer.size[..2].copy_from_slice(&size);
+        buffer.byte_stride[..2].copy_from_slice(&stride);
+        buffer
+    }
+
+    fn strides_of(size: [u64; 2], stride: [i64; 2]) -> Result<[isize; 2], String> {
+        let view = View::new(&buffer(size, stride), "image");
+        view.map(|view| view.stride).map_err(|failure| failure.message)
+    }
+
+    #[test]
+    fn strides_left_at_zero_are_packed() {
+        assert_eq!(strides_of([5, 3], [0, 0]), Ok([2, 10]));
+        assert_eq!(strides_of([5, 3], [6, 0]), Ok([6, 30]));
+        assert_eq!(strides_of([5, 3], [-2, 0]), Ok([-2, 10]));
+        assert_eq!(strides_of([5, 3], [0, -64]), Ok([2, -64]));
+        assert_eq!(strides_of([5, 3], [6, 2]), Ok([6, 2]), "columns as rows");
+    }
+
+    #[test]
+    fn overlapping_pixels_are_refused() {
+        for (stride, bad) in [([1, 0], 0), ([2, 5], 1), ([4, 2], 0), ([-2, -8], 1)] {
+            let message = strides_of([5, 3], stride).unwrap_err();
+            assert!(message.starts_with(&format!("byte_stride[{bad}]")), "{stride:?}: {message}");
+        }
+        assert!(strides_of([1, 3], [1, 0]).is_ok(), "a single column has no neighbours");
+    }
+
+    #[test]
+    fn pixels_outside_of_memory_are_refused() {
+        for stride in [[i64::MAX, 0], [i64::MIN, 0], [2, i64::MAX], [2, i64::MIN], [-2000, 0]] {
+            assert!(strides_of([5, 3], stride).is_err(), "{stride:?}");
+        }
+        assert!(strides_of([u64::MAX, u64::MAX], [0, 0]).is_err());
+        assert!(strides_of([1 << 62, 1], [0, 0]).is_err());
+    }
+}

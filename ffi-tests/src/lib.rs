@@ -1,0 +1,138 @@
+//! C and C++ programs that use heatpath as its users do; `cargo test` builds and runs them.
+//!
+//! The programs are in `c/`; `distance.c` is the one to copy from. They are compiled with all
+//! warnings as errors against `include/heatpath.h` and linked to the shared library, which is
+//! installed for them under the name that the loader asks for. This library holds what the tests
+//! share.
+//!
+//! The shared library comes from cargo itself: `heatpath-capi` is a dependency of the tests, so
+//! cargo builds all of its kinds, in the same profile, before they run, and puts them next to the
+//! test program.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The shared library that belongs to the running test.
+///
+/// # Panics
+/// It is not there.
+#[must_use]
+pub fn shared_library() -> PathBuf {
+    let test = std::env::current_exe().expect("a test program knows its path");
+    let name = format!("{}heatpath{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    let places = test.ancestors().skip(1).take(2).map(|folder| folder.join(&name));
+    let found = places.clone().find(|path| path.is_file());
+    found.unwrap_or_else(|| panic!("no shared library at {:?}", places.collect::<Vec<_>>()))
+}
+
+/// A file or folder of this repository.
+#[must_use]
+pub fn repository(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
+}
+
+/// A folder of its own in which a test compiles and runs programs.
+#[derive(Debug)]
+pub struct Workshop {
+    folder: PathBuf,
+}
+
+impl Workshop {
+    /// An empty folder `name` in `parent`, with the shared library installed in it.
+    ///
+    /// # Panics
+    /// The folder cannot be made.
+    #[must_use]
+    pub fn new(parent: &str, name: &str) -> Self {
+        let folder = Path::new(parent).join(name);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).expect("the folder can be made");
+        // One name for the linker, one for the loader.
+        for name in ["libheatpath.so", "libheatpath.so.0"] {
+            fs::copy(shared_library(), folder.join(name)).expect("the library can be copied");
+        }
+        Self { folder }
+    }
+
+    /// The path of a file in the folder.
+    #[must_use]
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Compiles and links a program of `c/`, as C99 or C++17 by its ending.
+    ///
+    /// # Panics
+    /// The compiler has anything to say.
+    #[must_use]
+    pub fn build(&self, source: &str) -> PathBuf {
+        let path = repository("ffi-tests/c").join(source);
+        let program = self.path(source.split('.').next().unwrap_or(source));
+        let folder = self.folder.display();
+        let mut compiler = compiler(&path);
+        compiler.args(["-g", "-O1", "-pthread", "-o"]).args([&program, &path]);
+        compiler.args([format!("-L{folder}"), format!("-Wl,-rpath,{folder}")]);
+        let output = run(compiler.args(["-lheatpath", "-lm"]));
+        assert!(output.stderr.is_empty(), "{}", text(&output));
+        program
+    }
+
+    /// Compiles a text without linking it, as C99 or C++17 by the ending of its name.
+    ///
+    /// # Panics
+    /// The compiler has anything to say.
+    pub fn check(&self, name: &str, text_of_program: &str) {
+        let path = self.path(name);
+        fs::write(&path, text_of_program).expect("the program can be written");
+        let output = run(compiler(&path).args(["-c", "-o"]).args([&self.path("checked.o"), &path]));
+        assert!(output.stderr.is_empty(), "{}", text(&output));
+    }
+}
+
+/// The compiler for a file, with warnings as errors: `CC` or `CXX` if set.
+fn compiler(source: &Path) -> Command {
+    let c = source.extension() == Some(OsStr::new("c"));
+    let (variable, usual, standard) =
+        if c { ("CC", "cc", "-std=c99") } else { ("CXX", "c++", "-std=c++17") };
+    let mut command = Command::new(std::env::var_os(variable).unwrap_or_else(|| usual.into()));
+    command.args([standard, "-Wall", "-Wextra", "-pedantic", "-Werror", "-I"]);
+    command.arg(repository("include"));
+    command
+}
+
+/// A program under valgrind, which fails with 99 for any misuse or leak of memory.
+///
+/// Memory that is "possibly lost" is none: the queues of the thread pool mark their pointers in the
+/// lowest bits, and a thread about to end still has its stack.
+///
+/// # Panics
+/// There is no valgrind.
+#[must_use]
+pub fn valgrind(program: &Path) -> Command {
+    let there = Command::new("valgrind").arg("--version").output().is_ok();
+    assert!(there, "this test needs valgrind: please install it (apt install valgrind)");
+    let mut command = Command::new("valgrind");
+    command.args(["--quiet", "--error-exitcode=99", "--leak-check=full"]);
+    command.args(["--show-leak-kinds=definite", "--errors-for-leak-kinds=definite"]).arg(program);
+    command
+}
+
+/// Runs a command that must succeed.
+///
+/// # Panics
+/// It cannot be started or fails.
+pub fn run(command: &mut Command) -> Output {
+    let output = command.output();
+    let output = output.unwrap_or_else(|error| panic!("{command:?} cannot be started: {error}"));
+    assert!(output.status.success(), "{command:?}: {}\n{}", output.status, text(&output));
+    output
+}
+
+/// All that a program said.
+#[must_use]
+pub fn text(output: &Output) -> String {
+    let [out, error] = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    format!("{out}{error}")
+}

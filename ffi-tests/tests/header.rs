@@ -1,0 +1,81 @@
+//! The header stands alone, in C99 and C++17, and says what the library has.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+use heatpath::{hp_buffer, hp_options, hp_path_info};
+use heatpath_ffi_tests::{Workshop, repository, run, shared_library, text};
+use std::collections::BTreeSet;
+use std::mem::offset_of;
+use std::process::Command;
+
+const ONLY_THE_HEADER: &str = "#include \"heatpath.h\"\nint main(void) { return HP_OK; }\n";
+
+#[test]
+fn the_header_compiles_on_its_own() {
+    let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), "header");
+    workshop.check("alone.c", ONLY_THE_HEADER);
+    workshop.check("alone.cpp", ONLY_THE_HEADER);
+    workshop.check("twice.c", &ONLY_THE_HEADER.replace("int", "#include \"heatpath.h\"\nint"));
+}
+
+#[test]
+fn c_and_rust_agree_on_structs() {
+    macro_rules! sizes {
+        ($($name:ident: $($field:ident)*;)*) => {
+            concat!($(stringify!($name), " {}\n", $(stringify!($name.$field), " {}\n",)*)*)
+        };
+    }
+    macro_rules! numbers {
+        ($($name:ident: $($field:ident)*;)*) => {
+            [$(size_of::<$name>(), $(offset_of!($name, $field),)*)*]
+        };
+    }
+    macro_rules! structs {
+        ($with:ident) => {
+            $with! {
+                hp_buffer: data spacing;
+                hp_options: smoothing estimator user;
+                hp_path_info: source distance;
+            }
+        };
+    }
+    let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), "sizes");
+    let output = run(&mut Command::new(workshop.build("sizes.c")));
+    let numbers = structs!(numbers).into_iter();
+    let expected = numbers
+        .zip(structs!(sizes).lines())
+        .map(|(number, line)| line.replace(" . ", ".").replace("{}", &number.to_string()) + "\n");
+    assert_eq!(text(&output), expected.collect::<String>());
+}
+
+/// The functions that the header declares.
+fn declared() -> BTreeSet<String> {
+    let header = std::fs::read_to_string(repository("include/heatpath.h")).unwrap();
+    let code = header.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()));
+    let names = code.filter(|line| !line.starts_with("typedef")).filter_map(|line| {
+        let before = line.split_once('(')?.0;
+        let start = before.rfind(|c: char| !(c.is_alphanumeric() || c == '_'))?;
+        Some(before[start + 1..].to_owned())
+    });
+    names.collect()
+}
+
+#[test]
+fn the_library_exports_what_the_header_declares_and_nothing_else() {
+    let output = run(Command::new("nm").args(["-D", "--defined-only"]).arg(shared_library()));
+    let lines = text(&output);
+    let exported: BTreeSet<String> =
+        lines.lines().filter_map(|line| Some(line.split(' ').next_back()?.to_owned())).collect();
+    assert!(exported.iter().all(|name| name.starts_with("hp_")), "{exported:?}");
+    assert_eq!(exported, declared());
+    assert!(exported.len() > 10);
+}
+
+#[test]
+fn the_library_has_a_name_and_stays_loaded() {
+    let output = run(Command::new("readelf").args(["-d", "-W"]).arg(shared_library()));
+    let text = text(&output);
+    let name = format!("soname: [libheatpath.so.{}]", heatpath::HP_ABI_VERSION);
+    assert!(text.contains(&name), "{text}");
+    assert!(text.contains("NODELETE"), "{text}");
+}
