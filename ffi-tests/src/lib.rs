@@ -104,8 +104,8 @@ fn compiler(source: &Path) -> Command {
 
 /// A program under valgrind, which fails with 99 for any misuse or leak of memory.
 ///
-/// Memory that is "possibly lost" is none: the queues of the thread pool mark their pointers in the
-/// lowest bits, and a thread about to end still has its stack.
+/// Memory that is "possibly lost" is none: the queues of the thread pool (crossbeam-epoch) mark
+/// their pointers in the lowest bits.
 ///
 /// # Panics
 /// There is no valgrind.

@@ -5,3 +5,8 @@ pub mod exec;
 pub mod grid;
 
 pub use exec::Exec;
+
+/// The examples of the README are tests too.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;
