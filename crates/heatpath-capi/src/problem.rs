@@ -11,7 +11,7 @@ use heatpath_core::Exec;
 use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
 use heatpath_core::grid::heat::{Explicit, Heat};
 use heatpath_core::grid::medium::{self, Medium, MediumError};
-use heatpath_core::grid::{Grid, Mask, Shape, Sources};
+use heatpath_core::grid::{Grid, Mask, Shape, Sources, fraction};
 
 /// What a computation needs at most, in bytes for each pixel.
 const BYTES_PER_PIXEL: usize = 160;
@@ -214,17 +214,4 @@ unsafe fn read_grey(image: &View, range: [Option<f64>; 2]) -> Result<Grid<f64, 2
     }
     values.iter_mut().for_each(|value| *value = fraction(*value, low, high));
     Ok(grid)
-}
-
-/// Where `value` lies between `low` (0) and `high` (1); 0 if these are equal.
-fn fraction(value: f64, low: f64, high: f64) -> f64 {
-    if high <= low {
-        return 0.0;
-    }
-    let width = high - low;
-    if width.is_finite() {
-        return ((value - low) / width).clamp(0.0, 1.0);
-    }
-    // The difference of the two largest numbers overflows; that of their halves does not.
-    ((0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)).clamp(0.0, 1.0)
 }

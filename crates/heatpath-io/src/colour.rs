@@ -1,8 +1,7 @@
 //! Numbers as colours.
 
-use crate::picture::fraction;
 use colorgrad::Gradient;
-use heatpath_core::grid::Grid;
+use heatpath_core::grid::{Grid, fraction};
 use image::{Rgb, RgbImage};
 use std::sync::LazyLock;
 

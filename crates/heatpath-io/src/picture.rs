@@ -2,7 +2,7 @@
 
 use crate::ReadError;
 use crate::decode::{Raster, decode};
-use heatpath_core::grid::{Grid, Mask, Shape};
+use heatpath_core::grid::{Grid, Mask, Shape, fraction};
 use std::path::Path;
 
 /// The parts of red, green and blue in the luma of Rec. 709.
@@ -196,19 +196,6 @@ fn natural_range(raster: &Raster, values: &[f64]) -> (f64, f64) {
     }
 }
 
-/// Where `value` lies between `low` (0) and `high` (1); 0 if these are equal.
-pub(crate) fn fraction(value: f64, low: f64, high: f64) -> f64 {
-    if high <= low {
-        return 0.0;
-    }
-    let width = high - low;
-    if width.is_finite() {
-        return ((value - low) / width).clamp(0.0, 1.0);
-    }
-    // The difference of the two largest numbers overflows; that of their halves does not.
-    ((0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)).clamp(0.0, 1.0)
-}
-
 /// The number farther from zero; not a number if one of them is not.
 fn larger_magnitude(a: f64, b: f64) -> f64 {
     if a.is_nan() || a.abs() > b.abs() { a } else { b }
@@ -217,16 +204,6 @@ fn larger_magnitude(a: f64, b: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn fractions_stay_between_zero_and_one() {
-        assert_eq!(fraction(5.0, 0.0, 10.0), 0.5);
-        assert_eq!(fraction(-1.0, 0.0, 10.0), 0.0);
-        assert_eq!(fraction(11.0, 0.0, 10.0), 1.0);
-        assert_eq!(fraction(3.0, 3.0, 3.0), 0.0);
-        assert_eq!(fraction(0.0, -f64::MAX, f64::MAX), 0.5);
-        assert_eq!(fraction(5e-324, 0.0, 5e-324), 1.0);
-    }
 
     #[test]
     fn the_larger_magnitude_keeps_what_is_not_a_number() {

@@ -126,3 +126,34 @@ impl<T, const D: usize> std::ops::IndexMut<[usize; D]> for Grid<T, D> {
         &mut self.values[self.shape.position(index)]
     }
 }
+
+/// Where `value` lies between `low` (0) and `high` (1), clamped to that range; 0 if these are equal.
+///
+/// This is how raw values become grey values.
+#[must_use]
+pub fn fraction(value: f64, low: f64, high: f64) -> f64 {
+    if high <= low {
+        return 0.0;
+    }
+    let width = high - low;
+    if width.is_finite() {
+        return ((value - low) / width).clamp(0.0, 1.0);
+    }
+    // The difference of the two largest numbers overflows; that of their halves does not.
+    ((0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_stay_between_zero_and_one() {
+        assert_eq!(fraction(5.0, 0.0, 10.0), 0.5);
+        assert_eq!(fraction(-1.0, 0.0, 10.0), 0.0);
+        assert_eq!(fraction(11.0, 0.0, 10.0), 1.0);
+        assert_eq!(fraction(3.0, 3.0, 3.0), 0.0);
+        assert_eq!(fraction(0.0, -f64::MAX, f64::MAX), 0.5);
+        assert_eq!(fraction(5e-324, 0.0, 5e-324), 1.0);
+    }
+}

@@ -15,7 +15,7 @@ mod sample;
 mod shape;
 mod source;
 
-pub use field::{Grid, LengthError, NotFinite};
+pub use field::{Grid, LengthError, NotFinite, fraction};
 pub use mask::Mask;
 pub use shape::{Shape, ShapeError};
 pub use source::{PointError, Sources, check_points};
