@@ -7,6 +7,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use heatpath_core::Exec;
+use heatpath_core::exec::SimdLevel;
 use heatpath_core::grid::heat::{Explicit, HeatOptions};
 use heatpath_core::grid::{Grid, Shape, Sources, medium};
 use std::hint::black_box;
@@ -14,7 +15,7 @@ use std::hint::black_box;
 fn heat(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("explicit heat, conductivity");
     group.sample_size(10);
-    for side in [300, 600] {
+    for side in [300, 600, 1200] {
         let shape = Shape::new([side, side]).unwrap();
         let image = Grid::from_fn(shape, |[x, y]| {
             0.5 + 0.25 * (0.05 * x as f64).sin() + 0.25 * (0.07 * y as f64).cos()
@@ -24,10 +25,18 @@ fn heat(criterion: &mut Criterion) {
         let sources = Sources::new(&[middle], medium.mask()).unwrap();
         let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
         group.throughput(Throughput::Elements((shape.cells() * explicit.iterations()) as u64));
-        let exec = Exec::single_threaded();
-        group.bench_function(BenchmarkId::new("1 thread", side), |bencher| {
-            bencher.iter(|| black_box(explicit.flow(&sources, &exec).unwrap()));
-        });
+        let mut run = |name: String, exec: &Exec| {
+            group.bench_function(BenchmarkId::new(name, side), |bencher| {
+                bencher.iter(|| black_box(explicit.flow(&sources, exec).unwrap()));
+            });
+        };
+        for level in [SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512] {
+            if level <= SimdLevel::best() {
+                let exec = Exec::single_threaded().with_simd(level);
+                run(format!("one thread, {}", level.name()), &exec);
+            }
+        }
+        run("all threads".to_owned(), &Exec::new(0).unwrap());
     }
     group.finish();
 }

@@ -5,7 +5,6 @@ use crate::failure::Failure;
 use crate::heat::{Outcome, flow};
 use crate::input::Picture;
 use crate::output;
-use heatpath_core::exec::simd_level;
 use heatpath_io::{FieldFormat, FieldStyle, Overlay, write_field, write_overlay};
 use serde::Serialize;
 use std::time::Instant;
@@ -92,6 +91,6 @@ fn report(outcome: &Outcome, open_cells: usize) -> Report {
             total: 0.0,
         },
         threads: outcome.threads,
-        simd: simd_level(),
+        simd: outcome.simd,
     }
 }

@@ -20,6 +20,7 @@ pub(crate) struct Outcome {
     pub(crate) heat_seconds: f64,
     pub(crate) distance_seconds: f64,
     pub(crate) threads: usize,
+    pub(crate) simd: &'static str,
 }
 
 /// Lets heat flow from `sources` through `medium` and reads it as distances.
@@ -55,7 +56,8 @@ pub(crate) fn flow(
         EstimatorArg::Normalized => normalized(&heat),
     };
     let distance_seconds = start.elapsed().as_secs_f64();
-    Ok(Outcome { heat, distances, heat_seconds, distance_seconds, threads: exec.threads() })
+    let (threads, simd) = (exec.threads(), exec.simd().name());
+    Ok(Outcome { heat, distances, heat_seconds, distance_seconds, threads, simd })
 }
 
 fn options(args: &HeatArgs) -> HeatOptions {

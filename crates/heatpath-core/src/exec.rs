@@ -28,9 +28,9 @@ pub type Watch<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 /// The threads belong to this value and end with it: a program that hosts heatpath as a library or
 /// plugin keeps its own threads, and no process-wide state is changed. Results do not depend on
 /// the number of threads.
-#[derive(Default)]
 pub struct Exec<'a> {
     threads: Option<Threads>,
+    simd: SimdLevel,
     watch: Option<Box<Watch<'a>>>,
 }
 
@@ -40,13 +40,26 @@ impl<'a> Exec<'a> {
     /// # Errors
     /// The operating system refused to start them.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
-        Ok(Self { threads: Some(Threads::start(threads)?), watch: None })
+        Ok(Self { threads: Some(Threads::start(threads)?), ..Self::single_threaded() })
     }
 
     /// Runs on the calling thread alone.
     #[must_use]
     pub fn single_threaded() -> Self {
-        Self::default()
+        Self { threads: None, simd: SimdLevel::best(), watch: None }
+    }
+
+    /// Uses at most the vector instructions of `level`.
+    #[must_use]
+    pub fn with_simd(mut self, level: SimdLevel) -> Self {
+        self.simd = level.min(SimdLevel::best());
+        self
+    }
+
+    /// The vector instructions in use.
+    #[must_use]
+    pub fn simd(&self) -> SimdLevel {
+        self.simd
     }
 
     /// Calls `watch` with the finished part (0 to 1) every few milliseconds to seconds, always on
@@ -82,7 +95,11 @@ impl<'a> Exec<'a> {
     ) {
         use rayon::prelude::*;
         match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
-            Some(pool) => pool.install(|| items.par_iter_mut().for_each_init(scratch, work)),
+            Some(pool) => pool.install(|| {
+                items.par_iter_mut().for_each_init(scratch, |scratch, item| {
+                    work(scratch, item);
+                });
+            }),
             None => {
                 let mut scratch = scratch();
                 items.iter_mut().for_each(|item| work(&mut scratch, item));
@@ -129,18 +146,69 @@ impl Drop for Threads {
     }
 }
 
-/// The vector instructions this build uses, by their usual name.
-#[must_use]
-pub fn simd_level() -> &'static str {
-    if cfg!(target_feature = "avx512f") {
-        "avx512"
-    } else if cfg!(target_feature = "avx2") {
-        "avx2"
-    } else if cfg!(target_feature = "sse2") {
-        "sse2"
-    } else if cfg!(target_feature = "neon") {
-        "neon"
-    } else {
-        "scalar"
+/// The vector instructions that a computation uses. Results do not depend on them.
+///
+/// One binary holds the inner loops once for each level and takes the best that the processor has.
+/// On other processors than x86-64 the loops are compiled once, for what the target always has
+/// (NEON on 64-bit ARM).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SimdLevel {
+    /// What every processor of the target has: SSE2 on x86-64, NEON on 64-bit ARM.
+    Baseline,
+    /// 256-bit vectors of x86-64.
+    Avx2,
+    /// 512-bit vectors of x86-64.
+    Avx512,
+}
+
+impl SimdLevel {
+    /// The best level of this processor.
+    #[must_use]
+    pub fn best() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if pulp::x86::V4::is_available() {
+                return Self::Avx512;
+            }
+            if pulp::x86::V3::is_available() {
+                return Self::Avx2;
+            }
+        }
+        Self::Baseline
+    }
+
+    /// The usual name: `sse2`, `avx2`, `avx512`, `neon`, or `baseline` on other targets.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Avx512 => "avx512",
+            Self::Avx2 => "avx2",
+            Self::Baseline if cfg!(target_feature = "sse2") => "sse2",
+            Self::Baseline if cfg!(target_feature = "neon") => "neon",
+            Self::Baseline => "baseline",
+        }
+    }
+
+    /// Runs `work` compiled for this level: whatever is inlined into it uses its instructions.
+    #[inline(always)]
+    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use pulp::x86::{V3, V4};
+            match self {
+                Self::Avx512 => {
+                    if let Some(level) = V4::try_new() {
+                        return level.vectorize(work);
+                    }
+                }
+                Self::Avx2 => {
+                    if let Some(level) = V3::try_new() {
+                        return level.vectorize(work);
+                    }
+                }
+                Self::Baseline => {}
+            }
+        }
+        work()
     }
 }

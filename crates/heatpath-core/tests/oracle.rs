@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
+use heatpath_core::exec::SimdLevel;
 use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources};
@@ -143,6 +144,29 @@ fn the_result_does_not_depend_on_threads() {
         let again = engine(&medium, [10.0, 10.0], 250, &Exec::new(threads).unwrap());
         assert_eq!(once.ln_temperature(), again.ln_temperature());
         assert_eq!(once.ln_exposure(), again.ln_exposure());
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_vector_instructions() {
+    let shape = Shape::new([170, 140]).unwrap();
+    let divergence = medium::given(rough(shape, 1e-3), Form::Divergence).unwrap();
+    let pointwise = medium::given(rough(shape, 1e-3), Form::Pointwise).unwrap();
+    let space =
+        medium::given(rough(Shape::new([40, 33, 21]).unwrap(), 0.1), Form::Divergence).unwrap();
+    let level = |level| Exec::single_threaded().with_simd(level);
+    let plain =
+        [&divergence, &pointwise].map(|m| engine(m, [9.0, 70.0], 90, &level(SimdLevel::Baseline)));
+    let plain_space = engine(&space, [9.0, 7.0, 3.0], 40, &level(SimdLevel::Baseline));
+    println!("best level here: {}", SimdLevel::best().name());
+    for simd in [SimdLevel::Avx2, SimdLevel::Avx512] {
+        for (medium, plain) in [&divergence, &pointwise].into_iter().zip(&plain) {
+            let heat = engine(medium, [9.0, 70.0], 90, &level(simd));
+            assert_eq!(heat.ln_temperature(), plain.ln_temperature());
+            assert_eq!(heat.ln_exposure(), plain.ln_exposure());
+        }
+        let heat = engine(&space, [9.0, 7.0, 3.0], 40, &level(simd));
+        assert_eq!(heat.ln_temperature(), plain_space.ln_temperature());
     }
 }
 

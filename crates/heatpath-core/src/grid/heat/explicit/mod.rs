@@ -206,7 +206,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
                 shares(mask, point).into_iter().map(move |(cell, weight)| (cell, amount * weight))
             })
             .collect();
-        let steps = schedule::Steps { operator: &self.operator, step: self.step };
+        let steps =
+            schedule::Steps { operator: &self.operator, step: self.step, simd: exec.simd() };
         let mut fields = (Vec::new(), Vec::new());
         for &edge in schedule::tile_edges(D) {
             let mut heat = schedule::Tiles::new(&shape, edge);

@@ -68,6 +68,18 @@ pub(super) fn trusted(value: f64) -> f64 {
     if value < SMALLEST { 0.0 } else { value }
 }
 
+/// The largest of some values that are not negative.
+///
+/// Eight at a time, because the comparisons of one maximum wait for each other.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let (chunks, rest) = values.as_chunks::<8>();
+    let lanes = chunks.iter().fold([0.0; 8], |lanes: [f64; 8], chunk| {
+        std::array::from_fn(|lane| larger(lanes[lane], chunk[lane]))
+    });
+    lanes.iter().chain(rest).copied().fold(0.0, larger)
+}
+
 /// The exponent for a block whose largest value is `value * 2^exponent`.
 pub(super) fn exponent_for(value: f64, exponent: i32) -> i32 {
     exponent + exponent_of(value) - TOP
@@ -118,6 +130,18 @@ mod tests {
         assert_eq!(Scale::new(-1900).apply(power_of_two(960)), power_of_two(-940));
         assert_eq!(Scale::new(i32::MIN / 2).apply(power_of_two(1000)), 0.0);
         assert_eq!(Scale::new(0).apply(0.1), 0.1);
+    }
+
+    #[test]
+    fn the_largest_is_found_wherever_it_stands() {
+        for len in 0..40 {
+            for place in 0..len {
+                let values: Vec<f64> =
+                    (0..len).map(|i| if i == place { 2.0 } else { 1.0 }).collect();
+                assert_eq!(largest(&values), 2.0);
+            }
+        }
+        assert_eq!(largest(&[]), 0.0);
     }
 
     #[test]

@@ -9,15 +9,16 @@
 //! Heat moves one cell a step, so a tile without heat in it or around it is passed over.
 
 use super::super::operator::Operator;
-use super::kernel::{Sides, diffuse_row};
-use super::scaled::{Scale, Scaled, exponent_for, trusted};
-use crate::exec::{Cancelled, Exec};
+use super::kernel::{Block, diffuse};
+use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
+use crate::exec::{Cancelled, Exec, SimdLevel};
 use crate::grid::Shape;
 
 /// The scheme and its time step.
 pub(super) struct Steps<'a, const D: usize> {
     pub(super) operator: &'a Operator<D>,
     pub(super) step: f64,
+    pub(super) simd: SimdLevel,
 }
 
 /// The cells along each side of a tile, in the order in which they are tried.
@@ -174,10 +175,10 @@ impl<const D: usize> Tiles<D> {
             .filter_map(|tile| {
                 let heat = &self.now[tile];
                 let part = range.intersection(self.range_of(tile));
-                let rows = part.rows().map(|row| self.place(row));
-                let largest = rows
-                    .flat_map(|start| &heat.values[start..start + part.row_length()])
-                    .fold(0.0, |largest: f64, &value| largest.max(value));
+                let largest = part
+                    .rows()
+                    .map(|row| largest(&heat.values[self.place(row)..][..part.row_length()]))
+                    .fold(0.0, f64::max);
                 (largest > 0.0).then(|| exponent_for(largest, heat.exponent))
             })
             .max()?;
@@ -200,24 +201,19 @@ impl<const D: usize> Tiles<D> {
 
     /// Advances a range of the window by one step.
     fn advance(&self, range: Range<D>, low: [usize; D], steps: &Steps<D>, scratch: &mut Scratch) {
-        let n = range.row_length();
-        let faces = &steps.operator.faces;
-        for row in range.rows() {
-            let (cell, place) = (self.shape.position(row), self.window_position(row, low));
-            let sides = std::array::from_fn(|axis| {
-                let (stride, window_stride) =
-                    (self.shape.stride(axis), self.window.pow(axis as u32));
-                Sides {
-                    before: &scratch.now[place - window_stride..][..n],
-                    after: &scratch.now[place + window_stride..][..n],
-                    face_before: &faces[axis][cell..][..n],
-                    face_after: &faces[axis][cell + stride..][..n],
-                }
-            });
-            let factor = steps.operator.factor.as_ref().map(|factor| &factor[cell..cell + n]);
-            let next = &mut scratch.next[place..place + n];
-            diffuse_row::<D>(next, &scratch.now[place..place + n], sides, factor, steps.step);
-        }
+        let block = Block {
+            size: std::array::from_fn(|axis| range.high[axis] - range.low[axis]),
+            cell: self.shape.position(range.low),
+            cell_strides: std::array::from_fn(|axis| self.shape.stride(axis)),
+            place: self.window_position(range.low, low),
+            place_strides: std::array::from_fn(|axis| self.window.pow(axis as u32)),
+        };
+        let Operator { faces, factor } = steps.operator;
+        let (next, u, factor) = (&mut scratch.next, &scratch.now, factor.as_deref());
+        steps.simd.run(
+            #[inline(always)]
+            || diffuse(next, u, faces, factor, steps.step, &block),
+        );
         std::mem::swap(&mut scratch.now, &mut scratch.next);
     }
 
