@@ -376,6 +376,7 @@ fn an_interruption_leaves_no_file() {
     let bench = Bench::new();
     let mut child = Command::new(env!("CARGO_BIN_EXE_heatpath"))
         .current_dir(bench.folder.path())
+        .stderr(std::process::Stdio::null())
         .args("distance curve.png --source 5,5 --iterations 2000000 -o d.npy".split(' '))
         .spawn()
         .unwrap();

@@ -95,11 +95,7 @@ impl<'a> Exec<'a> {
     ) {
         use rayon::prelude::*;
         match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
-            Some(pool) => pool.install(|| {
-                items.par_iter_mut().for_each_init(scratch, |scratch, item| {
-                    work(scratch, item);
-                });
-            }),
+            Some(pool) => pool.install(|| items.par_iter_mut().for_each_init(scratch, work)),
             None => {
                 let mut scratch = scratch();
                 items.iter_mut().for_each(|item| work(&mut scratch, item));

@@ -116,13 +116,10 @@ impl<const D: usize> Tiles<D> {
             report(done as f64 / iterations as f64)?;
             let count = self.steps.min(iterations - done);
             let mut visited = std::mem::take(&mut self.visited);
-            exec.for_each(
-                &mut visited,
-                || self.scratch(),
-                |scratch, tile| {
-                    self.visit(tile, steps, count, scratch);
-                },
-            );
+            let visit = |scratch: &mut Scratch, tile: &mut Visited| {
+                self.visit(tile, steps, count, scratch);
+            };
+            exec.for_each(&mut visited, || self.scratch(), visit);
             for (visited, now) in visited.iter_mut().zip(&mut self.now) {
                 std::mem::swap(&mut visited.next, now);
             }
