@@ -43,6 +43,12 @@ pub(crate) fn check(
     }
     if let Some(overlay) = &out.overlay {
         check_output(overlay, None, out.force, &["png"])?;
+        if output == Some(overlay) {
+            return Err(Failure::usage(format!(
+                "{}: is given as --output and as --overlay; they need two files",
+                overlay.display()
+            )));
+        }
     }
     Ok(())
 }

@@ -304,6 +304,9 @@ fn bad_input_is_told_in_one_line() {
         2,
         &["sigma", "-1"],
     );
+    fails("distance curve.png --source 5,5 -o x.png --overlay x.png", 2, &["x.png", "two files"]);
+    fails("distance curve.png --source 5,5 --threads 100000 -o x.npy", 2, &["100000", "1024"]);
+    fails("distance curve.png --source 5,5 --time 1e300 -o x.npy", 2, &["5e300", "1e12"]);
     assert_eq!(fs::read_to_string(bench.path("there.npy")).unwrap(), "precious");
     bench.ok("distance curve.png --source 5,5 -o there.npy --force");
     assert_eq!(bench.npy("there.npy").0, [80, 100]);

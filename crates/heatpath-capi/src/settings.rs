@@ -9,13 +9,11 @@ use crate::options::{
 use crate::progress::Progress;
 use crate::status::Failure;
 use crate::structs::{self, Versioned};
+use heatpath_core::Exec;
 use heatpath_core::grid::heat::{Duration, FaceMean, HeatOptions, Step};
 use heatpath_core::grid::medium::{
     ConductivityOptions, EdgeStop, EdgesOptions, Form, PeronaMalikOptions,
 };
-
-/// The largest number of threads that can be asked for.
-const MOST_THREADS: u32 = 1024;
 
 /// A medium with its parameters.
 pub(crate) enum Recipe {
@@ -61,9 +59,9 @@ impl Settings {
     }
 
     fn new(options: &hp_options) -> Result<Self, Failure> {
-        if options.threads > MOST_THREADS {
-            let threads = options.threads;
-            let message = format!("threads is {threads}; it must be at most {MOST_THREADS}");
+        if options.threads as usize > Exec::MOST_THREADS {
+            let (threads, most) = (options.threads, Exec::MOST_THREADS);
+            let message = format!("threads is {threads}; it must be at most {most}");
             return Err(Failure::argument(message));
         }
         let estimator = match options.estimator {

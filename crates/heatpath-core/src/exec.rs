@@ -16,7 +16,7 @@ pub struct Cancelled;
 pub struct ThreadsError {
     /// The number of threads asked for.
     pub threads: usize,
-    /// What the operating system said.
+    /// What was wrong with that, or what the operating system said.
     pub reason: String,
 }
 
@@ -35,11 +35,20 @@ pub struct Exec<'a> {
 }
 
 impl<'a> Exec<'a> {
-    /// Runs on `threads` threads of its own; 0 takes one per processor.
+    /// The largest number of threads that can be asked for: far beyond it threads die while they
+    /// start, and take the process with them.
+    pub const MOST_THREADS: usize = 1024;
+
+    /// Runs on `threads` threads of its own, at most [`Self::MOST_THREADS`]; 0 takes one per
+    /// processor.
     ///
     /// # Errors
-    /// The operating system refused to start them.
+    /// There are too many, or the operating system refused to start them.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
+        if threads > Self::MOST_THREADS {
+            let reason = format!("at most {} are possible", Self::MOST_THREADS);
+            return Err(ThreadsError { threads, reason });
+        }
         Ok(Self { threads: Some(Threads::start(threads)?), ..Self::single_threaded() })
     }
 

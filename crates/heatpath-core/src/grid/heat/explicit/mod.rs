@@ -83,7 +83,7 @@ pub enum HeatError {
     #[error("the time is {0}; it must be a positive finite number")]
     Time(f64),
     /// There are no iterations, or more than anybody could wait for.
-    #[error("the number of iterations is {0}; it must be from 1 to 1e12")]
+    #[error("the number of iterations is {0:?}; it must be from 1 to 1e12")]
     Iterations(f64),
     /// The caller cancelled.
     #[error(transparent)]
