@@ -3,6 +3,7 @@
 use heatpath_core::exec::ThreadsError;
 use heatpath_core::grid::heat::HeatError;
 use heatpath_core::grid::medium::MediumError;
+use heatpath_core::grid::path::NoExposure;
 use heatpath_core::grid::{PointError, ShapeError};
 use heatpath_io::{ReadError, WriteError};
 use std::fmt;
@@ -94,6 +95,12 @@ impl From<MediumError> for Failure {
 impl From<PointError> for Failure {
     fn from(error: PointError) -> Self {
         Self::bad_input(error)
+    }
+}
+
+impl From<NoExposure> for Failure {
+    fn from(error: NoExposure) -> Self {
+        Self::no_answer(error)
     }
 }
 

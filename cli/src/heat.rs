@@ -75,6 +75,7 @@ fn options(args: &HeatArgs) -> HeatOptions {
             FaceMeanArg::Arithmetic => FaceMean::Arithmetic,
             FaceMeanArg::Harmonic => FaceMean::Harmonic,
         },
+        exposure: true,
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
     let ends = picture.points("end", &args.end, args.ends.as_deref())?;
     let medium = picture.medium(&args.medium, &sources)?;
     let outcome = flow(&medium, &sources, &args.heat, args.out.quiet)?;
-    let descent = Descent::new(&outcome.heat);
+    let descent = Descent::new(&outcome.heat)?;
     let paths = ends
         .iter()
         .map(|&end| descent.path(end, &outcome.distances, PathOptions::default()))

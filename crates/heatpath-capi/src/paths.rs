@@ -112,7 +112,7 @@ unsafe fn trace(arguments: &Arguments, ends: &[[f64; 2]]) -> Result<Vec<Path<2>>
     check_points("end", ends, problem.mask())?;
     let heat = problem.flow(HEAT_SHARE)?;
     let distances = problem.distances(&heat);
-    let descent = Descent::new(&heat);
+    let descent = Descent::new(&heat)?;
     let mut paths = Vec::with_capacity(ends.len());
     for (number, &end) in ends.iter().enumerate() {
         let traced = number as f64 / ends.len() as f64;

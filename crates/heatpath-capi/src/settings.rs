@@ -136,7 +136,7 @@ impl hp_options {
             }
         };
         let step = if self.step == 0.0 { Step::Auto } else { Step::Fixed(self.step) };
-        Ok(HeatOptions { duration, step, face_mean: FaceMean::default() })
+        Ok(HeatOptions { duration, step, face_mean: FaceMean::default(), exposure: true })
     }
 }
 

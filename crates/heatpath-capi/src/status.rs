@@ -3,6 +3,7 @@
 use heatpath_core::exec::{Cancelled, ThreadsError};
 use heatpath_core::grid::heat::HeatError;
 use heatpath_core::grid::medium::MediumError;
+use heatpath_core::grid::path::NoExposure;
 use heatpath_core::grid::{NotFinite, PointError, ShapeError};
 use std::any::Any;
 use std::cell::RefCell;
@@ -96,6 +97,12 @@ impl From<MediumError> for Failure {
 impl From<Cancelled> for Failure {
     fn from(error: Cancelled) -> Self {
         Self::new(HP_CANCELLED, format!("{error} by the progress callback"))
+    }
+}
+
+impl From<NoExposure> for Failure {
+    fn from(error: NoExposure) -> Self {
+        Self::new(HP_PANIC, error.to_string())
     }
 }
 

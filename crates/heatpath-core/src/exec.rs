@@ -1,7 +1,10 @@
 //! How to run a computation: threads, progress and cancellation; never what to compute.
 
+pub use crate::simd::SimdLevel;
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use thiserror::Error;
 
@@ -95,20 +98,24 @@ impl<'a> Exec<'a> {
         }
     }
 
-    /// Calls `work` once for each of `items`, in parallel; each thread makes its own `scratch`.
-    pub(crate) fn for_each<T: Send, S>(
+    /// Calls `work` once for each of `items`, in parallel, with one of `scratch`, of which there must
+    /// be one for each of the [`threads`](Self::threads).
+    pub(crate) fn for_each<T: Send, S: Send>(
         &self,
         items: &mut [T],
-        scratch: impl Fn() -> S + Sync + Send,
+        scratch: &[Mutex<S>],
         work: impl Fn(&mut S, &mut T) + Sync + Send,
     ) {
         use rayon::prelude::*;
+        let work = |item: &mut T| {
+            let thread = rayon::current_thread_index().unwrap_or(0);
+            // A lock poisoned by a panic is met by nobody: the panic ends the whole call.
+            let mut scratch = scratch[thread].lock().unwrap_or_else(PoisonError::into_inner);
+            work(&mut scratch, item);
+        };
         match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
-            Some(pool) => pool.install(|| items.par_iter_mut().for_each_init(scratch, work)),
-            None => {
-                let mut scratch = scratch();
-                items.iter_mut().for_each(|item| work(&mut scratch, item));
-            }
+            Some(pool) => pool.install(|| items.par_iter_mut().for_each(work)),
+            None => items.iter_mut().for_each(work),
         }
     }
 }
@@ -148,72 +155,5 @@ impl Drop for Threads {
             // A worker that panicked has told its caller already.
             drop(handle.join());
         }
-    }
-}
-
-/// The vector instructions that a computation uses. Results do not depend on them.
-///
-/// One binary holds the inner loops once for each level and takes the best that the processor has.
-/// On other processors than x86-64 the loops are compiled once, for what the target always has
-/// (NEON on 64-bit ARM).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum SimdLevel {
-    /// What every processor of the target has: SSE2 on x86-64, NEON on 64-bit ARM.
-    Baseline,
-    /// 256-bit vectors of x86-64.
-    Avx2,
-    /// 512-bit vectors of x86-64.
-    Avx512,
-}
-
-impl SimdLevel {
-    /// The best level of this processor.
-    #[must_use]
-    pub fn best() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if pulp::x86::V4::is_available() {
-                return Self::Avx512;
-            }
-            if pulp::x86::V3::is_available() {
-                return Self::Avx2;
-            }
-        }
-        Self::Baseline
-    }
-
-    /// The usual name: `sse2`, `avx2`, `avx512`, `neon`, or `baseline` on other targets.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Avx512 => "avx512",
-            Self::Avx2 => "avx2",
-            Self::Baseline if cfg!(target_feature = "sse2") => "sse2",
-            Self::Baseline if cfg!(target_feature = "neon") => "neon",
-            Self::Baseline => "baseline",
-        }
-    }
-
-    /// Runs `work` compiled for this level: whatever is inlined into it uses its instructions.
-    #[inline(always)]
-    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
-        #[cfg(target_arch = "x86_64")]
-        {
-            use pulp::x86::{V3, V4};
-            match self {
-                Self::Avx512 => {
-                    if let Some(level) = V4::try_new() {
-                        return level.vectorize(work);
-                    }
-                }
-                Self::Avx2 => {
-                    if let Some(level) = V3::try_new() {
-                        return level.vectorize(work);
-                    }
-                }
-                Self::Baseline => {}
-            }
-        }
-        work()
     }
 }

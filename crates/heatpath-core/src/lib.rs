@@ -3,6 +3,7 @@
 
 pub mod exec;
 pub mod grid;
+mod simd;
 
 pub use exec::Exec;
 

@@ -54,6 +54,12 @@ impl<T, const D: usize> Grid<T, D> {
         }
     }
 
+    /// A grid of as many `values` as it has cells.
+    pub(crate) fn from_parts(shape: Shape<D>, values: Vec<T>) -> Self {
+        debug_assert_eq!(shape.cells(), values.len());
+        Self { shape, values }
+    }
+
     /// A grid whose cell at index `i` holds `value(i)`.
     pub fn from_fn(shape: Shape<D>, mut value: impl FnMut([usize; D]) -> T) -> Self {
         let values = (0..shape.cells()).map(|position| value(shape.index(position))).collect();

@@ -38,6 +38,12 @@ impl<const D: usize> Mask<D> {
         self.open.values()[position]
     }
 
+    /// Whether there are no walls.
+    #[must_use]
+    pub fn is_all_open(&self) -> bool {
+        self.open.values().iter().all(|&open| open)
+    }
+
     /// Whether `point` (pixel coordinates) lies in an open cell.
     #[must_use]
     pub fn is_open_at(&self, point: [f64; D]) -> bool {

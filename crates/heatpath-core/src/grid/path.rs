@@ -11,6 +11,7 @@ use super::heat::Heat;
 use super::sample::corners;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::f64::consts::PI;
+use thiserror::Error;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +60,11 @@ impl Default for PathOptions {
     }
 }
 
+/// There is nothing for paths to follow.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("the heat was made without its exposure, which paths follow: ask for it in the options")]
+pub struct NoExposure;
+
 /// A potential to descend, with its sources and walls: traces any number of paths.
 #[derive(Clone, Debug)]
 pub struct Descent<const D: usize> {
@@ -72,13 +78,16 @@ pub struct Descent<const D: usize> {
 
 impl<const D: usize> Descent<D> {
     /// The descent towards the sources of `heat`.
-    #[must_use]
-    pub fn new(heat: &Heat<D>) -> Self {
+    ///
+    /// # Errors
+    /// The heat was made without its exposure.
+    pub fn new(heat: &Heat<D>) -> Result<Self, NoExposure> {
+        let potential = potential(heat).ok_or(NoExposure)?;
         let (mask, sources) = (heat.mask().clone(), heat.sources().clone());
         let shape = *mask.shape();
         let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
         let connected = mask.reachable_from(cells);
-        Self { potential: potential(heat), mask, sources, connected }
+        Ok(Self { potential, mask, sources, connected })
     }
 
     /// Traces the path from `end` (pixel coordinates) to a source.
@@ -260,16 +269,17 @@ impl<const D: usize> Descent<D> {
 /// change no path, but they are close to `r^2 / 4t` near the source as well as far from it: central
 /// differences and interpolation are nearly exact for such a function, and paths come straight into
 /// the source.
-fn potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
+fn potential<const D: usize>(heat: &Heat<D>) -> Option<Grid<f64, D>> {
+    let exposure = heat.ln_exposure()?;
     let speeds = heat.speeds_sq.iter().zip(&heat.amounts);
     let scale =
         speeds.map(|(speed_sq, amount)| 4.0 * PI * speed_sq / amount).fold(f64::MAX, f64::min);
     let unit =
         if D < 3 { scale * heat.step } else { scale * heat.step * (4.0 * heat.time()).sqrt() };
     // Where heat is trapped around its source, exp(-exposure) would leave the range of numbers.
-    let highest = heat.ln_exposure().values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let ln_unit = unit.ln().min(30_f64.ln() - highest);
-    heat.ln_exposure().map(|&ln_exposure| {
+    Some(exposure.map(|&ln_exposure| {
         let ln = ln_exposure + ln_unit;
         if ln == f64::NEG_INFINITY {
             f64::INFINITY
@@ -280,7 +290,7 @@ fn potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
         } else {
             (-2.0 * ln).exp().ln_1p()
         }
-    })
+    }))
 }
 
 /// `-ln(1 - exp(-a))` for `a = exp(ln_a)`, accurate for all of them: it is close to `exp(-a)` for

@@ -127,6 +127,12 @@ impl<const D: usize> Shape<D> {
         })
     }
 
+    /// The index of the first cell of each row along x.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = [usize; D]> + use<D> {
+        let shape = *self;
+        (0..shape.cells()).step_by(shape.size[0]).map(move |cell| shape.index(cell))
+    }
+
     /// The neighbours of the cell at `position` that share a face with it.
     pub fn neighbours(&self, position: usize) -> impl Iterator<Item = usize> + use<D> {
         let (index, size) = (self.index(position), self.size);

@@ -26,7 +26,7 @@ pub struct Heat<const D: usize> {
     /// The squared speed at each source.
     pub(crate) speeds_sq: Vec<f64>,
     pub(crate) ln_temperature: Grid<f64, D>,
-    pub(crate) ln_exposure: Grid<f64, D>,
+    pub(crate) ln_exposure: Option<Grid<f64, D>>,
     pub(crate) iterations: usize,
     pub(crate) step: f64,
 }
@@ -64,9 +64,11 @@ impl<const D: usize> Heat<D> {
     /// the end, which is positive away from the sources. A cell with `L E > 0` is below the mean of
     /// its neighbours, so each has a neighbour with more exposure. Paths climb it and cannot stop
     /// short. Its logarithm has the same limit as that of u in Varadhan's formula.
+    ///
+    /// `None` if it was not kept ([`HeatOptions::exposure`]).
     #[must_use]
-    pub fn ln_exposure(&self) -> &Grid<f64, D> {
-        &self.ln_exposure
+    pub fn ln_exposure(&self) -> Option<&Grid<f64, D>> {
+        self.ln_exposure.as_ref()
     }
 
     /// The number of time steps.

@@ -1,6 +1,5 @@
 //! The discrete `k div(D grad u)`.
 
-use crate::grid::Shape;
 use crate::grid::medium::Medium;
 
 /// How the diffusion coefficient of a face is made from the two cells that share it.
@@ -34,58 +33,80 @@ impl FaceMean {
 /// The flux through a face is its conductance times the difference of u. Conductances are in cell
 /// units: D on the face, times (smallest spacing / spacing along the axis)^2. A face of a wall or of
 /// the border does not exist: its conductance is zero.
-#[derive(Debug)]
-pub(super) struct Operator<const D: usize> {
-    /// For each axis, the conductance of the face between each cell and the one before it.
-    ///
-    /// One stride longer than the grid, so that the face after a cell is always found one stride
-    /// further on; beyond the border it is zero.
-    pub(super) faces: [Vec<f64>; D],
-    /// The factor k of each cell; `None` stands for 1.
-    pub(super) factor: Option<Vec<f64>>,
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Operator<'a, const D: usize> {
+    medium: &'a Medium<D>,
+    mean: FaceMean,
 }
 
-impl<const D: usize> Operator<D> {
-    pub(super) fn new(medium: &Medium<D>, mean: FaceMean) -> Self {
-        Self {
-            faces: std::array::from_fn(|axis| conductances(medium, axis, mean)),
-            factor: medium.factor().map(|factor| factor.values().to_vec()),
-        }
+impl<'a, const D: usize> Operator<'a, D> {
+    pub(super) fn new(medium: &'a Medium<D>, mean: FaceMean) -> Self {
+        Self { medium, mean }
+    }
+
+    pub(super) fn medium(&self) -> &'a Medium<D> {
+        self.medium
+    }
+
+    /// The conductance of the face between a cell and the one after it along `axis`, which must be
+    /// on the grid, as long as both are open.
+    #[inline]
+    fn between_open(&self, axis: usize, cell: usize) -> f64 {
+        let diffusion = self.medium.diffusion().map_or(1.0, |field| {
+            let values = field.values();
+            self.mean.of(values[cell], values[cell + self.medium.shape().stride(axis)])
+        });
+        self.uniform_conductance(axis) * diffusion
+    }
+
+    /// The conductances of the faces between the cells of a row along x, which begins at `row`, and
+    /// those after them along `axis`.
+    pub(super) fn conductances(&self, axis: usize, row: [usize; D]) -> impl Iterator<Item = f64> {
+        let (shape, mask) = (self.medium.shape(), self.medium.mask());
+        let (start, stride, n) = (shape.position(row), shape.stride(axis), shape.size()[axis]);
+        (0..shape.size()[0]).map(move |x| {
+            let (cell, index) = (start + x, if axis == 0 { x } else { row[axis] });
+            let exists = index + 1 < n && mask.is_open(cell) && mask.is_open(cell + stride);
+            if exists { self.between_open(axis, cell) } else { 0.0 }
+        })
+    }
+
+    /// The conductance of every face along `axis` where D is 1.
+    pub(super) fn uniform_conductance(&self, axis: usize) -> f64 {
+        let shape = self.medium.shape();
+        (shape.smallest_spacing() / shape.spacing()[axis]).powi(2)
+    }
+
+    /// Whether every face inside the grid has its [`uniform_conductance`](Self::uniform_conductance).
+    pub(super) fn is_uniform(&self) -> bool {
+        self.medium.diffusion().is_none() && self.medium.mask().is_all_open()
     }
 
     /// The largest time step, in cell units, at which explicit heat stays positive and stable:
     /// one over the largest `k x sum of conductances` of any cell.
     ///
     /// Infinite if nothing can flow.
-    pub(super) fn largest_stable_step(&self, shape: &Shape<D>) -> f64 {
-        let fastest = (0..shape.cells())
-            .map(|cell| {
-                let conductance: f64 = (0..D)
-                    .map(|axis| {
-                        self.faces[axis][cell] + self.faces[axis][cell + shape.stride(axis)]
-                    })
-                    .sum();
-                conductance * self.factor.as_ref().map_or(1.0, |factor| factor[cell])
-            })
-            .fold(0.0, f64::max);
-        1.0 / fastest
-    }
-}
-
-fn conductances<const D: usize>(medium: &Medium<D>, axis: usize, mean: FaceMean) -> Vec<f64> {
-    let shape = medium.shape();
-    let stride = shape.stride(axis);
-    let scale = (shape.smallest_spacing() / shape.spacing()[axis]).powi(2);
-    let mut faces = vec![0.0; shape.cells() + stride];
-    for (cell, face) in faces.iter_mut().enumerate().take(shape.cells()).skip(stride) {
-        let before = cell - stride;
-        let at_border = shape.index(cell)[axis] == 0;
-        if !at_border && medium.mask().is_open(cell) && medium.mask().is_open(before) {
-            let diffusion = medium
-                .diffusion()
-                .map_or(1.0, |field| mean.of(field.values()[before], field.values()[cell]));
-            *face = scale * diffusion;
+    pub(super) fn largest_stable_step(&self) -> f64 {
+        let shape = self.medium.shape();
+        let mut sums = vec![0.0; shape.cells()];
+        for axis in 0..D {
+            let stride = shape.stride(axis);
+            for row in shape.rows() {
+                let cells = shape.position(row)..;
+                for (cell, conductance) in cells.zip(self.conductances(axis, row)) {
+                    if conductance > 0.0 {
+                        sums[cell] += conductance;
+                        sums[cell + stride] += conductance;
+                    }
+                }
+            }
         }
+        let rates = sums.iter().enumerate().map(|(cell, sum)| sum * self.factor_of(cell));
+        1.0 / rates.fold(0.0, f64::max)
     }
-    faces
+
+    /// The factor k of the cell at a position.
+    pub(super) fn factor_of(&self, cell: usize) -> f64 {
+        self.medium.factor().map_or(1.0, |factor| factor.values()[cell])
+    }
 }

@@ -1,101 +1,239 @@
-//! Explicit heat, one row after the other, as the formula reads.
+//! Explicit heat: one row, and the order of rows when several steps are made at once.
 
-/// A box of cells: where it lies in the arrays of the grid and in the window with u.
+use super::stencil::{ROW_MULTIPLE, Stencil};
+use crate::simd::{Aligned, Lanes, Real};
+use bytemuck::{cast_slice, cast_slice_mut};
+use std::ops::Range;
+
+/// A row of cells and what flows into it. All slices are of one length, u but one vector longer.
+///
+/// Along x the neighbours are in the row; the first entries of `next` and `inflow` are for axis 1, the
+/// second for axis 2, if there is one.
+struct Row<'a, V, const D: usize> {
+    u: &'a mut [V],
+    /// `step x k`.
+    rate: &'a [V],
+    /// The conductances towards the next cell along each axis.
+    faces: [&'a [V]; D],
+    /// u of the next row along each axis.
+    next: [&'a [V]; 2],
+    /// Before: what flows in from the row before along each axis. After: what flows out, to the row
+    /// after.
+    inflow: [&'a mut [V]; 2],
+    /// To be added u after the step.
+    sum: &'a mut [V],
+}
+
+impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
+    /// `u' = u + rate x sum over axes (flux from the cell after - flux to the cell before)`.
+    ///
+    /// A flux is a conductance times a difference of u. Each is computed once, from u before the
+    /// step, and serves both cells: that is why the row can be updated in place. The order of
+    /// operations gives the same bits for a picture and its mirror image, and for a picture and its
+    /// transpose.
+    #[inline(always)]
+    fn step<T: Real, const SUM: bool>(self, lanes: impl Lanes<T, Vector = V>) {
+        let Self { u, rate, mut faces, next: [next_y, next_z], .. } = self;
+        let [inflow_y, inflow_z] = self.inflow;
+        // One length for all, seen by the compiler, leaves no bounds to check in the loop.
+        let n = rate.len();
+        let u = &mut u[..=n];
+        for faces in &mut faces {
+            *faces = &faces[..n];
+        }
+        let next = [&next_y[..n], &next_z[..n]];
+        let inflow = [&mut inflow_y[..n], &mut inflow_z[..n]];
+        let sum = &mut self.sum[..if SUM { n } else { 0 }];
+        let rate = &rate[..n];
+        let zero = lanes.splat(T::default());
+        let (mut here, mut flux_before) = (u[0], zero);
+        for i in 0..n {
+            let after = u[i + 1];
+            let flux = lanes.mul(faces[0][i], lanes.sub(lanes.one_after(here, after), here));
+            let mut net = lanes.sub(flux, lanes.one_before(flux_before, flux));
+            flux_before = flux;
+            for across in 0..D - 1 {
+                let flux = lanes.mul(faces[across + 1][i], lanes.sub(next[across][i], here));
+                net = lanes.add(net, lanes.sub(flux, inflow[across][i]));
+                inflow[across][i] = flux;
+            }
+            u[i] = lanes.add(here, lanes.mul(rate[i], net));
+            if SUM {
+                sum[i] = lanes.add(sum[i], u[i]);
+            }
+            here = after;
+        }
+    }
+}
+
+/// Part of the grid, copied to where it can be advanced by several steps.
+pub(super) struct Window<T, const D: usize> {
+    /// The numbers from one row to the next along each axis but x (0 along x).
+    strides: [usize; D],
+    /// How many steps it can be advanced by.
+    steps: usize,
+    pub(super) u: Aligned<T>,
+    /// `step x k` of every cell, or of one row if it is the same everywhere.
+    pub(super) rate: Aligned<T>,
+    pub(super) rate_is_uniform: bool,
+    /// u added up over the steps, in the rows that are right to the last step; empty if not wanted.
+    pub(super) sum: Aligned<T>,
+    /// What flows from one row to the next along the last axis, for each step and each row of a
+    /// plane.
+    inflow_last: Aligned<T>,
+    /// What flows from one row to the next along the axis between the first and the last.
+    inflow_middle: Aligned<T>,
+}
+
+/// What a window holds.
 #[derive(Clone, Copy)]
-pub(super) struct Block<const D: usize> {
+pub(super) struct Extent<const D: usize> {
+    /// The first cell, in the grid.
+    pub(super) low: [usize; D],
     /// The cells along each axis.
     pub(super) size: [usize; D],
-    /// The position of the first cell in the grid, and how far apart neighbours are there.
-    pub(super) cell: usize,
-    pub(super) cell_strides: [usize; D],
-    /// The same in the window.
-    pub(super) place: usize,
-    pub(super) place_strides: [usize; D],
+    /// Whether the grid ends there, before the first cell and behind the last along each axis.
+    pub(super) is_border: [(bool, bool); D],
 }
 
-/// The values and conductances on either side of a row along one axis.
-#[derive(Clone, Copy)]
-struct Sides<'a> {
-    before: &'a [f64],
-    after: &'a [f64],
-    face_before: &'a [f64],
-    face_after: &'a [f64],
-}
+impl<const D: usize> Extent<D> {
+    /// The cells along an axis to be computed in step number `step`.
+    ///
+    /// What lies outside the window is not known, so along each axis one cell more becomes wrong
+    /// with every step, except at the border of the grid. Along x whole rows are computed.
+    #[inline(always)]
+    fn computed(&self, axis: usize, step: usize) -> Range<usize> {
+        let (starts, ends) = self.is_border[axis];
+        let low = if starts { 0 } else { step };
+        low..self.size[axis] - if ends { 0 } else { step }
+    }
 
-/// `next = u + step k sum over axes (flux in from after - flux out to before)` for all cells of a
-/// block.
-///
-/// `faces` holds for each axis the conductances towards the neighbour before each cell; `factor` is
-/// k, or `None` for 1. The order of operations gives the same bits for a picture and its mirror
-/// image, and for a picture and its transpose; there is no fused multiply-add, so every processor
-/// rounds alike.
-#[inline(always)]
-pub(super) fn diffuse<const D: usize>(
-    next: &mut [f64],
-    u: &[f64],
-    faces: &[Vec<f64>; D],
-    factor: Option<&[f64]>,
-    step: f64,
-    block: &Block<D>,
-) {
-    let (rows, planes) = (size_along(block.size, 1), size_along(block.size, 2));
-    let n = block.size[0];
-    for row in 0..rows * planes {
-        let (y, z) = (row % rows, row / rows);
-        let cell = block.cell + y * at(block.cell_strides, 1) + z * at(block.cell_strides, 2);
-        let place = block.place + y * at(block.place_strides, 1) + z * at(block.place_strides, 2);
-        let mut sides = [Sides { before: &[], after: &[], face_before: &[], face_after: &[] }; D];
-        for (axis, sides) in sides.iter_mut().enumerate() {
-            *sides = Sides {
-                before: &u[place - block.place_strides[axis]..][..n],
-                after: &u[place + block.place_strides[axis]..][..n],
-                face_before: &faces[axis][cell..][..n],
-                face_after: &faces[axis][cell + block.cell_strides[axis]..][..n],
-            };
-        }
-        let next = &mut next[place..place + n];
-        let factor = factor.map(|factor| &factor[cell..][..n]);
-        diffuse_row(next, &u[place..][..n], &sides, factor, step);
+    /// The cells of a row that are computed.
+    #[inline(always)]
+    pub(super) fn row_length(&self) -> usize {
+        self.size[0].next_multiple_of(ROW_MULTIPLE)
     }
 }
 
-/// One row; all slices are of one length.
-///
-/// One loop an axis and one for the step: each is short enough for the compiler to make vector
-/// instructions of. One loop for all was tried and is slower: written to `next` it stays scalar (too
-/// many slices to prove apart), in arrays of eight values too, and by way of a buffer it gains
-/// nothing, because the time goes into the loads that are not aligned.
-#[inline(always)]
-fn diffuse_row<const D: usize>(
-    next: &mut [f64],
-    u: &[f64],
-    sides: &[Sides; D],
-    factor: Option<&[f64]>,
-    step: f64,
-) {
-    let n = next.len();
-    let u = &u[..n];
-    next.fill(0.0);
-    for side in sides {
-        let (before, after) = (&side.before[..n], &side.after[..n]);
-        let (face_before, face_after) = (&side.face_before[..n], &side.face_after[..n]);
-        for i in 0..n {
-            next[i] += face_after[i] * (after[i] - u[i]) - face_before[i] * (u[i] - before[i]);
+impl<T: Real, const D: usize> Window<T, D> {
+    pub(super) fn new(room: [usize; D], steps: usize, with_sum: bool) -> Self {
+        // Behind the last row along each axis one more is read, through faces without conductance.
+        let mut strides = [0; D];
+        let mut numbers = room[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE;
+        for axis in 1..D {
+            strides[axis] = numbers;
+            numbers *= room[axis] + 1;
+        }
+        Self {
+            strides,
+            steps,
+            u: Aligned::zeros(numbers),
+            rate: Aligned::zeros(numbers),
+            rate_is_uniform: false,
+            sum: Aligned::zeros(if with_sum { numbers } else { 0 }),
+            inflow_last: Aligned::zeros(strides[D - 1] * steps),
+            inflow_middle: Aligned::zeros(strides[1]),
         }
     }
-    match factor {
-        None => next.iter_mut().zip(u).for_each(|(next, u)| *next = u + step * *next),
-        Some(factor) => {
-            let cells = next.iter_mut().zip(u).zip(factor);
-            cells.for_each(|((next, u), k)| *next = u + step * k * *next);
+
+    /// Where the row of a cell begins.
+    #[inline(always)]
+    pub(super) fn row(&self, index: [usize; D]) -> usize {
+        (1..D).map(|axis| index[axis] * self.strides[axis]).sum()
+    }
+
+    /// The numbers that belong to a row, with room for a vector behind it.
+    #[inline(always)]
+    pub(super) fn row_stride(&self) -> usize {
+        self.strides[1]
+    }
+
+    /// Advances all cells by `steps`, which may be fewer than there is room for.
+    ///
+    /// The rows (in 3-D: planes) are passed over once by a front of all steps: behind the first
+    /// step, one row later, follows the second, and so on. So a row is read from cache by all steps
+    /// but the first.
+    #[inline(always)]
+    pub(super) fn advance<L: Lanes<T>>(
+        &mut self,
+        lanes: L,
+        stencil: &Stencil<T, D>,
+        extent: &Extent<D>,
+        steps: usize,
+    ) {
+        debug_assert!(steps <= self.steps);
+        self.inflow_last.fill(T::default());
+        for front in 0..extent.size[D - 1] + steps - 1 {
+            for step in 0..steps.min(front + 1) {
+                if extent.computed(D - 1, step).contains(&(front - step)) {
+                    self.step_plane(lanes, stencil, extent, [front - step, step], steps);
+                }
+            }
         }
     }
-}
 
-fn size_along<const D: usize>(size: [usize; D], axis: usize) -> usize {
-    size.get(axis).copied().unwrap_or(1)
-}
+    /// Makes one step of the rows whose last index is `plane`.
+    #[inline(always)]
+    fn step_plane<L: Lanes<T>>(
+        &mut self,
+        lanes: L,
+        stencil: &Stencil<T, D>,
+        extent: &Extent<D>,
+        [plane, step]: [usize; 2],
+        steps: usize,
+    ) {
+        let rows = if D == 2 { 0..1 } else { extent.computed(1, step) };
+        self.inflow_middle.fill(T::default());
+        for y in rows {
+            let mut index = [0; D];
+            index[1] = y;
+            index[D - 1] = plane;
+            let lasts = (1..D).all(|axis| extent.computed(axis, steps).contains(&index[axis]));
+            if lasts && !self.sum.is_empty() {
+                self.step_row::<L, true>(lanes, stencil, extent, index, step);
+            } else {
+                self.step_row::<L, false>(lanes, stencil, extent, index, step);
+            }
+        }
+    }
 
-fn at<const D: usize>(strides: [usize; D], axis: usize) -> usize {
-    strides.get(axis).copied().unwrap_or(0)
+    #[inline(always)]
+    fn step_row<L: Lanes<T>, const SUM: bool>(
+        &mut self,
+        lanes: L,
+        stencil: &Stencil<T, D>,
+        extent: &Extent<D>,
+        index: [usize; D],
+        step: usize,
+    ) {
+        let numbers = extent.row_length();
+        let start = self.row(index);
+        // Along the last axis the inflow is kept for each step and each row of a plane.
+        let last_inflow = start - index[D - 1] * self.strides[D - 1] + step * self.strides[D - 1];
+        let rate = if self.rate_is_uniform { 0 } else { start };
+        let mut cell = extent.low;
+        let mut faces: [&[L::Vector]; D] = [&[]; D];
+        for axis in 1..D {
+            cell[axis] += index[axis];
+        }
+        for (axis, faces) in faces.iter_mut().enumerate() {
+            *faces = cast_slice(stencil.row(axis, cell, numbers));
+        }
+        let end = start + self.strides[1];
+        let (upto, beyond) = self.u.split_at_mut(end);
+        let next = |axis: usize| -> &[L::Vector] {
+            cast_slice(&beyond[start + self.strides[axis] - end..][..numbers])
+        };
+        let middle: &mut [L::Vector] = cast_slice_mut(&mut self.inflow_middle[..numbers]);
+        let last = cast_slice_mut(&mut self.inflow_last[last_inflow..][..numbers]);
+        Row {
+            u: cast_slice_mut(&mut upto[start..]),
+            rate: cast_slice(&self.rate[rate..rate + numbers]),
+            faces,
+            next: [next(1), next(D - 1)],
+            inflow: if D == 2 { [last, middle] } else { [middle, last] },
+            sum: if SUM { cast_slice_mut(&mut self.sum[start..start + numbers]) } else { &mut [] },
+        }
+        .step::<T, SUM>(lanes);
+    }
 }

@@ -5,6 +5,9 @@
 //! Multiplying by a power of two is exact, so the bits are those of a float without limits, as long
 //! as the values of one block differ by less than [`RANGE`] powers of two.
 
+use std::ops::Range;
+use wide::f64x8;
+
 /// The largest value of a block is kept near two to this power, with room above for sums.
 const TOP: i32 = 960;
 
@@ -34,35 +37,41 @@ impl Scaled {
         self.values[i] += Scale::new(-self.exponent).apply(amount);
     }
 
-    /// Adds `other * 2^exponent`, value by value, and keeps the larger of the two exponents.
-    pub(super) fn add(&mut self, other: &[f64], exponent: i32) {
+    /// Makes room for `len` values of up to about `2^exponent` times [`TOP`]: keeps the larger of the
+    /// two exponents.
+    #[inline(always)]
+    pub(super) fn grow(&mut self, exponent: i32, len: usize) {
         if self.values.is_empty() {
-            *self = Self { exponent, values: vec![0.0; other.len()] };
+            *self = Self { exponent, values: vec![0.0; len] };
         }
-        let larger = self.exponent.max(exponent);
-        let (scale_self, scale_other) =
-            (Scale::new(self.exponent - larger), Scale::new(exponent - larger));
-        for (value, other) in self.values.iter_mut().zip(other) {
-            *value = scale_self.apply(*value) + scale_other.apply(*other);
+        if exponent > self.exponent {
+            let scale = Scale::new(self.exponent - exponent);
+            self.values.iter_mut().for_each(|value| *value = scale.apply(*value));
+            self.exponent = exponent;
         }
-        self.exponent = larger;
     }
 
-    /// The natural logarithm of the value at `i`, minus infinity for zero.
+    /// The natural logarithms of some of the values, minus infinity for zero.
     ///
     /// The same bits whatever the exponent of the block.
-    pub(super) fn ln(&self, i: usize) -> f64 {
-        let value = trusted(self.values[i]);
-        if value == 0.0 {
-            return f64::NEG_INFINITY;
+    pub(super) fn ln(&self, range: Range<usize>, logarithms: &mut [f64]) {
+        for (values, logarithms) in self.values[range].chunks(8).zip(logarithms.chunks_mut(8)) {
+            let (mut mantissas, mut exponents) = ([1.0; 8], [f64::NEG_INFINITY; 8]);
+            for (i, &value) in values.iter().enumerate() {
+                if trusted(value) > 0.0 {
+                    let exponent = exponent_of(value);
+                    mantissas[i] = value * power_of_two(-exponent);
+                    exponents[i] = f64::from(exponent + self.exponent);
+                }
+            }
+            let ln = f64x8::from(mantissas).ln() + f64x8::from(exponents) * f64x8::LN_2;
+            logarithms.copy_from_slice(&ln.to_array()[..logarithms.len()]);
         }
-        let exponent = exponent_of(value);
-        let mantissa = Scale::new(-exponent).apply(value);
-        mantissa.ln() + f64::from(exponent + self.exponent) * std::f64::consts::LN_2
     }
 }
 
 /// Zero in place of a value too small to be trusted.
+#[inline(always)]
 pub(super) fn trusted(value: f64) -> f64 {
     const SMALLEST: f64 = power_of_two(BOTTOM);
     if value < SMALLEST { 0.0 } else { value }
@@ -71,13 +80,16 @@ pub(super) fn trusted(value: f64) -> f64 {
 /// The largest of some values that are not negative.
 ///
 /// Eight at a time, because the comparisons of one maximum wait for each other.
+#[inline(always)]
 pub(super) fn largest(values: &[f64]) -> f64 {
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
     let (chunks, rest) = values.as_chunks::<8>();
-    let lanes = chunks.iter().fold([0.0; 8], |lanes: [f64; 8], chunk| {
-        std::array::from_fn(|lane| larger(lanes[lane], chunk[lane]))
-    });
-    lanes.iter().chain(rest).copied().fold(0.0, larger)
+    let mut lanes = [0.0; 8];
+    for chunk in chunks {
+        for lane in 0..8 {
+            lanes[lane] = if chunk[lane] > lanes[lane] { chunk[lane] } else { lanes[lane] };
+        }
+    }
+    lanes.iter().chain(rest).copied().fold(0.0, f64::max)
 }
 
 /// The exponent for a block whose largest value is `value * 2^exponent`.
@@ -109,6 +121,7 @@ impl Scale {
         Self { first: power_of_two(half), second: power_of_two(rest) }
     }
 
+    #[inline(always)]
     pub(super) fn apply(self, value: f64) -> f64 {
         value * self.first * self.second
     }
@@ -145,17 +158,19 @@ mod tests {
     }
 
     #[test]
-    fn sums_keep_the_larger_range() {
-        let mut sum = Scaled { exponent: -5000, values: vec![3.0, 0.0] };
-        sum.add(&[1.0, 2.0], -4999);
-        assert_eq!(sum.exponent, -4999);
-        assert_eq!(sum.values, [2.5, 2.0]);
-        sum.add(&[1.0, 0.0], -9000);
-        assert_eq!(sum.values, [2.5, 2.0]);
-        assert!((sum.ln(1) + 4998.0 * std::f64::consts::LN_2).abs() < 1e-12);
-        let mut zero = Scaled::default();
-        zero.add(&[1.0], -70);
-        assert_eq!((zero.exponent, zero.values[0]), (-70, 1.0));
+    fn growing_keeps_the_values() {
+        let mut heat = Scaled { exponent: -5000, values: vec![3.0, 0.0] };
+        heat.grow(-4999, 2);
+        assert_eq!((heat.exponent, &heat.values[..]), (-4999, &[1.5, 0.0][..]));
+        heat.grow(-9000, 2);
+        assert_eq!((heat.exponent, &heat.values[..]), (-4999, &[1.5, 0.0][..]));
+        let mut ln = [0.0; 2];
+        heat.ln(0..2, &mut ln);
+        assert!((ln[0] - 1.5_f64.ln() + 4999.0 * std::f64::consts::LN_2).abs() < 1e-12);
+        assert_eq!(ln[1], f64::NEG_INFINITY);
+        let mut empty = Scaled::default();
+        empty.grow(-70, 1);
+        assert_eq!((empty.exponent, empty.values), (-70, vec![0.0]));
     }
 
     #[test]

@@ -8,52 +8,84 @@
 //! any thread in any order with the same result, and each tile keeps an exponent of its own.
 //! Heat moves one cell a step, so a tile without heat in it or around it is passed over.
 
-use super::super::operator::Operator;
-use super::kernel::{Block, diffuse};
+use super::kernel::{Extent, Window};
 use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
-use crate::exec::{Cancelled, Exec, SimdLevel};
-use crate::grid::Shape;
+use super::stencil::Stencil;
+use crate::exec::{Cancelled, Exec};
+use crate::grid::{Grid, Shape};
+use crate::simd::{Lanes, Real, WithLanes};
+use std::sync::Mutex;
 
 /// The scheme and its time step.
-pub(super) struct Steps<'a, const D: usize> {
-    pub(super) operator: &'a Operator<D>,
+pub(super) struct Scheme<'a, T, const D: usize> {
+    pub(super) stencil: &'a Stencil<T, D>,
+    /// k, or `None` for 1.
+    pub(super) factor: Option<&'a Grid<f64, D>>,
     pub(super) step: f64,
-    pub(super) simd: SimdLevel,
+    pub(super) iterations: usize,
+    /// Whether to add up u.
+    pub(super) exposure: bool,
 }
 
-/// The cells along each side of a tile, in the order in which they are tried.
-///
-/// Larger tiles waste less work on margins but must hold a wider range of values, and in 3-D
-/// outgrow the cache.
-pub(super) fn tile_edges(dimension: usize) -> &'static [usize] {
-    if dimension < 3 { &[64, 32, 16, 8] } else { &[32, 16, 8] }
+/// How the grid is cut.
+#[derive(Clone, Copy)]
+pub(super) struct Tiling<const D: usize> {
+    /// The cells of a tile along each axis.
+    edge: [usize; D],
+    /// How many steps a visit takes.
+    steps: usize,
 }
 
-/// How many cells of a tile's edge make one step of a visit.
-const EDGE_PER_STEP: usize = 8;
+impl<const D: usize> Tiling<D> {
+    /// The ways to cut a grid, in the order in which they are tried.
+    ///
+    /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
+    /// they must hold a wider range of values, and in 3-D outgrow the cache.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let (lengths, edges): (&[usize], &[usize]) =
+            if D < 3 { (&[128, 64], &[64, 32, 16, 8]) } else { (&[128, 64], &[32, 16, 8]) };
+        let long = lengths.iter().map(|&length| (length, edges[0]));
+        let cubes = edges.iter().map(|&edge| (edge, edge));
+        let mut all: Vec<_> = long.chain(cubes).collect();
+        all.dedup();
+        all.into_iter().map(|(length, edge)| Self {
+            edge: std::array::from_fn(|axis| if axis == 0 { length } else { edge }),
+            steps: edge / 8,
+        })
+    }
+}
+
+/// The margin of a window along x, in cells: at least the steps of a visit, and such that the rows
+/// of a window begin at a vector of the conductances.
+const MARGIN_X: usize = 8;
+
+/// How many powers of two the largest value of a window may lie above the top of a tile's range.
+const HEADROOM: i32 = 32;
 
 /// The temperature of the whole grid, tile by tile.
 pub(super) struct Tiles<const D: usize> {
     shape: Shape<D>,
-    /// The cells along each side of a tile.
-    edge: usize,
-    /// How many steps a visit takes.
-    steps: usize,
-    /// The cells along each side of a thread's window: a tile, a margin of one cell a step, and a
-    /// rim of one cell more that is read through faces without conductance.
-    window: usize,
+    tiling: Tiling<D>,
     /// How many tiles there are along each axis.
     tiles: Shape<D>,
     /// The temperature before a visit; empty where there is no heat yet.
-    now: Vec<Scaled>,
+    now: Vec<Temperature>,
     visited: Vec<Visited>,
+}
+
+/// The temperature of a tile.
+#[derive(Clone, Default)]
+struct Temperature {
+    heat: Scaled,
+    /// The largest of its values.
+    largest: f64,
 }
 
 /// What a visit writes.
 #[derive(Clone, Default)]
 struct Visited {
     number: usize,
-    next: Scaled,
+    next: Temperature,
     exposure: Scaled,
 }
 
@@ -64,210 +96,308 @@ struct Range<const D: usize> {
     high: [usize; D],
 }
 
-/// Where a thread advances its tile.
-struct Scratch {
-    now: Vec<f64>,
-    next: Vec<f64>,
-    sum: Vec<f64>,
-}
-
 impl<const D: usize> Tiles<D> {
-    pub(super) fn new(shape: &Shape<D>, edge: usize) -> Self {
-        let tiles = shape.with_size(shape.size().map(|n| n.div_ceil(edge)));
-        let steps = edge / EDGE_PER_STEP;
+    pub(super) fn new(shape: &Shape<D>, tiling: Tiling<D>) -> Self {
+        let size = std::array::from_fn(|axis| shape.size()[axis].div_ceil(tiling.edge[axis]));
+        let tiles = shape.with_size(size);
         let visited = |number| Visited { number, ..Visited::default() };
         Self {
             shape: *shape,
-            edge,
-            steps,
-            window: edge + 2 * steps + 2,
+            tiling,
             tiles,
-            now: vec![Scaled::default(); tiles.cells()],
+            now: vec![Temperature::default(); tiles.cells()],
             visited: (0..tiles.cells()).map(visited).collect(),
         }
+    }
+
+    /// The number of cells of a tile.
+    fn tile_cells(&self) -> usize {
+        self.tiling.edge.iter().product()
     }
 
     /// Adds heat to the cell at a position of the grid.
     pub(super) fn add(&mut self, cell: usize, amount: f64) {
         let index = self.shape.index(cell);
-        let tile = self.tiles.position(index.map(|i| i / self.edge));
-        let place = self.place(index);
-        let heat = &mut self.now[tile];
+        let edge = self.tiling.edge;
+        let tile = self.tiles.position(std::array::from_fn(|axis| index[axis] / edge[axis]));
+        let (place, len) = (self.place(index), self.tile_cells());
+        let Temperature { heat, largest } = &mut self.now[tile];
         if heat.values.is_empty() {
-            *heat = Scaled::zeros(self.edge.pow(D as u32));
+            *heat = Scaled::zeros(len);
         }
         heat.add_at(place, amount);
+        *largest = largest.max(heat.values[place]);
     }
 
-    /// Advances by `iterations` steps; returns the logarithms of u and of its sum over the start
-    /// and all steps.
-    pub(super) fn march(
+    /// Lets heat flow; returns the logarithms of u and of its sum over the start and all steps.
+    pub(super) fn march<T: Real>(
         mut self,
-        steps: &Steps<D>,
-        iterations: usize,
+        scheme: &Scheme<T, D>,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
-    ) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
+    ) -> Result<(Grid<f64, D>, Option<Grid<f64, D>>), Cancelled> {
         for (visited, now) in self.visited.iter_mut().zip(&self.now) {
-            visited.exposure = now.clone();
+            if scheme.exposure {
+                visited.exposure = now.heat.clone();
+            }
         }
+        let windows: Vec<_> =
+            (0..exec.threads()).map(|_| Mutex::new(self.window(scheme))).collect();
         let mut done = 0;
-        while done < iterations {
-            report(done as f64 / iterations as f64)?;
-            let count = self.steps.min(iterations - done);
+        while done < scheme.iterations {
+            report(done as f64 / scheme.iterations as f64)?;
+            let count = self.tiling.steps.min(scheme.iterations - done);
             let mut visited = std::mem::take(&mut self.visited);
-            let visit = |scratch: &mut Scratch, tile: &mut Visited| {
-                self.visit(tile, steps, count, scratch);
-            };
-            exec.for_each(&mut visited, || self.scratch(), visit);
+            exec.for_each(&mut visited, &windows, |window, tile| {
+                let tiles = &self;
+                T::with_lanes(exec.simd(), Visit { tiles, scheme, count, tile, window });
+            });
             for (visited, now) in visited.iter_mut().zip(&mut self.now) {
                 std::mem::swap(&mut visited.next, now);
             }
             self.visited = visited;
             done += count;
         }
-        let temperature = self.logarithms(|tile| &self.now[tile]);
-        Ok((temperature, self.logarithms(|tile| &self.visited[tile].exposure)))
+        let exposure: Vec<_> = self.visited.into_iter().map(|visited| visited.exposure).collect();
+        let temperature = self.now.into_iter().map(|now| now.heat).collect();
+        let (shape, tiling) = (self.shape, self.tiling);
+        let exposure = scheme.exposure.then(|| logarithms(shape, tiling, exposure, exec));
+        Ok((logarithms(shape, tiling, temperature, exec), exposure))
     }
 
-    fn scratch(&self) -> Scratch {
-        let window = vec![0.0; self.window.pow(D as u32)];
-        let sum = vec![0.0; self.edge.pow(D as u32)];
-        Scratch { now: window.clone(), next: window, sum }
+    /// Where a thread advances its tile.
+    fn window<T: Real>(&self, scheme: &Scheme<T, D>) -> Window<T, D> {
+        let Tiling { edge, steps } = self.tiling;
+        let room = std::array::from_fn(|axis| edge[axis] + 2 * self.margin(axis, steps));
+        let mut window = Window::new(room, steps, scheme.exposure);
+        window.rate.fill(T::from_f64(scheme.step));
+        window.rate_is_uniform = scheme.factor.is_none();
+        window
     }
 
-    /// Advances one tile by `count` steps.
-    fn visit(&self, tile: &mut Visited, steps: &Steps<D>, count: usize, scratch: &mut Scratch) {
-        let inside = self.range_of(tile.number);
-        let Some(exponent) = self.load(self.widened(inside, count), inside.low, scratch) else {
-            tile.next.values.clear();
-            return;
-        };
-        scratch.sum.fill(0.0);
-        for left in (0..count).rev() {
-            self.advance(self.widened(inside, left), inside.low, steps, scratch);
-            for row in inside.rows() {
-                let (from, to) = (self.window_position(row, inside.low), self.place(row));
-                let n = inside.row_length();
-                let sums = scratch.sum[to..to + n].iter_mut();
-                sums.zip(&scratch.now[from..from + n]).for_each(|(sum, u)| *sum += u);
-            }
-        }
-        // === Store
-        tile.next.exponent = exponent;
-        tile.next.values.resize(scratch.sum.len(), 0.0);
-        for row in inside.rows() {
-            let (from, to) = (self.window_position(row, inside.low), self.place(row));
-            let n = inside.row_length();
-            let values = tile.next.values[to..to + n].iter_mut();
-            values.zip(&scratch.now[from..from + n]).for_each(|(value, u)| *value = trusted(*u));
-        }
-        tile.exposure.add(&scratch.sum, exponent);
-    }
-
-    /// Copies a range into the window, scaled to a common exponent; `None` if there is no heat.
-    fn load(&self, range: Range<D>, low: [usize; D], scratch: &mut Scratch) -> Option<i32> {
-        let exponent = self
-            .tiles_around(range)
-            .filter_map(|tile| {
-                let heat = &self.now[tile];
-                let part = range.intersection(self.range_of(tile));
-                let largest = part
-                    .rows()
-                    .map(|row| largest(&heat.values[self.place(row)..][..part.row_length()]))
-                    .fold(0.0, f64::max);
-                (largest > 0.0).then(|| exponent_for(largest, heat.exponent))
-            })
-            .max()?;
-        for row in range.rows() {
-            let to = self.window_position(row, low);
-            scratch.now[to..to + range.row_length()].fill(0.0);
-        }
-        for tile in self.tiles_around(range) {
-            let heat = &self.now[tile];
-            let part = range.intersection(self.range_of(tile));
-            let scale = Scale::new(heat.exponent - exponent);
-            for row in part.rows() {
-                let (from, to) = (self.place(row), self.window_position(row, low));
-                let values = scratch.now[to..to + part.row_length()].iter_mut();
-                values.zip(&heat.values[from..]).for_each(|(u, value)| *u = scale.apply(*value));
-            }
-        }
-        Some(exponent)
-    }
-
-    /// Advances a range of the window by one step.
-    fn advance(&self, range: Range<D>, low: [usize; D], steps: &Steps<D>, scratch: &mut Scratch) {
-        let block = Block {
-            size: std::array::from_fn(|axis| range.high[axis] - range.low[axis]),
-            cell: self.shape.position(range.low),
-            cell_strides: std::array::from_fn(|axis| self.shape.stride(axis)),
-            place: self.window_position(range.low, low),
-            place_strides: std::array::from_fn(|axis| self.window.pow(axis as u32)),
-        };
-        let Operator { faces, factor } = steps.operator;
-        let (next, u, factor) = (&mut scratch.next, &scratch.now, factor.as_deref());
-        steps.simd.run(
-            #[inline(always)]
-            || diffuse(next, u, faces, factor, steps.step, &block),
-        );
-        std::mem::swap(&mut scratch.now, &mut scratch.next);
-    }
-
-    /// The logarithms of one [`Scaled`] per tile, as one field.
-    fn logarithms<'a>(&'a self, heat_of: impl Fn(usize) -> &'a Scaled) -> Vec<f64> {
-        let mut field = vec![f64::NEG_INFINITY; self.shape.cells()];
-        for tile in 0..self.tiles.cells() {
-            let heat = heat_of(tile);
-            let range = self.range_of(tile);
-            for row in range.rows().filter(|_| !heat.values.is_empty()) {
-                let (from, to) = (self.place(row), self.shape.position(row));
-                for i in 0..range.row_length() {
-                    field[to + i] = heat.ln(from + i);
-                }
-            }
-        }
-        field
+    fn margin(&self, axis: usize, steps: usize) -> usize {
+        if axis == 0 { MARGIN_X } else { steps }
     }
 
     /// The cells of a tile.
     fn range_of(&self, tile: usize) -> Range<D> {
-        let low = self.tiles.index(tile).map(|i| i * self.edge);
-        let high = std::array::from_fn(|axis| (low[axis] + self.edge).min(self.shape.size()[axis]));
+        let edge = self.tiling.edge;
+        let index = self.tiles.index(tile);
+        let low = std::array::from_fn(|axis| index[axis] * edge[axis]);
+        let size = self.shape.size();
+        let high = std::array::from_fn(|axis| (low[axis] + edge[axis]).min(size[axis]));
         Range { low, high }
     }
 
-    /// A range with a margin, as far as the grid goes.
-    fn widened(&self, range: Range<D>, margin: usize) -> Range<D> {
+    /// The cells of a tile and a margin for `steps` steps, as far as the grid goes.
+    fn around(&self, tile: Range<D>, steps: usize) -> Range<D> {
         let size = self.shape.size();
+        let margin = |axis| self.margin(axis, steps);
         Range {
-            low: range.low.map(|i| i.saturating_sub(margin)),
-            high: std::array::from_fn(|axis| (range.high[axis] + margin).min(size[axis])),
+            low: std::array::from_fn(|axis| tile.low[axis].saturating_sub(margin(axis))),
+            high: std::array::from_fn(|axis| (tile.high[axis] + margin(axis)).min(size[axis])),
         }
     }
 
-    /// The tiles with heat that a range touches.
+    fn extent(&self, range: Range<D>) -> Extent<D> {
+        let (low, high, size) = (range.low, range.high, self.shape.size());
+        Extent {
+            low,
+            size: std::array::from_fn(|axis| high[axis] - low[axis]),
+            is_border: std::array::from_fn(|axis| (low[axis] == 0, high[axis] == size[axis])),
+        }
+    }
+
+    /// The tiles that a range touches.
+    #[inline(always)]
     fn tiles_around(&self, range: Range<D>) -> impl Iterator<Item = usize> {
-        let high = range.high.map(|i| (i - 1) / self.edge + 1);
-        let touched = Range { low: range.low.map(|i| i / self.edge), high };
+        let edge = self.tiling.edge;
+        let touched = Range {
+            low: std::array::from_fn(|axis| range.low[axis] / edge[axis]),
+            high: std::array::from_fn(|axis| (range.high[axis] - 1) / edge[axis] + 1),
+        };
         touched
             .rows()
             .flat_map(move |row| (0..touched.row_length()).map(move |i| (row, i)))
             .map(|(row, i)| self.tiles.position(row) + i)
-            .filter(|&tile| !self.now[tile].values.is_empty())
     }
 
     /// Where a cell stands within its tile.
+    #[inline(always)]
     fn place(&self, index: [usize; D]) -> usize {
-        index.iter().rev().fold(0, |place, i| place * self.edge + i % self.edge)
+        let edge = self.tiling.edge;
+        (0..D).rev().fold(0, |place, axis| place * edge[axis] + index[axis] % edge[axis])
+    }
+}
+
+/// Advances one tile by `count` steps.
+struct Visit<'a, T, const D: usize> {
+    tiles: &'a Tiles<D>,
+    scheme: &'a Scheme<'a, T, D>,
+    count: usize,
+    tile: &'a mut Visited,
+    window: &'a mut Window<T, D>,
+}
+
+impl<T: Real, const D: usize> WithLanes<T> for Visit<'_, T, D> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes<T>>(self, lanes: L) {
+        let Self { tiles, scheme, count, tile, window } = self;
+        let inside = tiles.range_of(tile.number);
+        let around = tiles.around(inside, count);
+        let Some(exponent) = tiles.exponent(tile.number, around) else {
+            tile.next.heat.values.clear();
+            return;
+        };
+        tiles.load(around, exponent, scheme, window);
+        window.advance(lanes, scheme.stencil, &tiles.extent(around), count);
+        tiles.store(inside, around, window, &mut tile.next);
+        tile.next.heat.exponent = exponent;
+        if scheme.exposure {
+            tiles.add_exposure(inside, around, window, exponent, &mut tile.exposure);
+        }
+    }
+}
+
+impl<const D: usize> Tiles<D> {
+    /// The exponent for the heat of a tile and a range around it; `None` if there is no heat.
+    ///
+    /// Only the part of a neighbour that lies in the range counts: its other side may be hotter by
+    /// more than a window can hold. It is looked at only if the neighbour is much hotter than the
+    /// tile itself, which lies in the range as a whole.
+    #[inline(always)]
+    fn exponent(&self, number: usize, range: Range<D>) -> Option<i32> {
+        let exponent_of = |largest: f64, heat: &Scaled| {
+            if largest > 0.0 { Some(exponent_for(largest, heat.exponent)) } else { None }
+        };
+        let mut exponent = exponent_of(self.now[number].largest, &self.now[number].heat);
+        for tile in self.tiles_around(range) {
+            let Temperature { heat, largest: bound } = &self.now[tile];
+            let bound = exponent_of(*bound, heat);
+            if bound.is_none() || bound <= exponent.map(|exponent| exponent + HEADROOM) {
+                continue;
+            }
+            let part = range.intersection(self.range_of(tile));
+            let mut most = 0.0;
+            for row in part.rows() {
+                most = largest(&heat.values[self.place(row)..][..part.row_length()]).max(most);
+            }
+            exponent = exponent.max(exponent_of(most, heat));
+        }
+        exponent
     }
 
-    /// Where a cell stands in the window around the tile that begins at `low`.
-    fn window_position(&self, index: [usize; D], low: [usize; D]) -> usize {
-        (0..D).rev().fold(0, |position, axis| {
-            position * self.window + index[axis] + self.steps + 1 - low[axis]
-        })
+    /// Copies a range into the window, scaled to an exponent.
+    #[inline(always)]
+    fn load<T: Real>(
+        &self,
+        range: Range<D>,
+        exponent: i32,
+        scheme: &Scheme<T, D>,
+        window: &mut Window<T, D>,
+    ) {
+        for row in range.rows() {
+            let to = window.row(range.offset(row));
+            let (end, stride) = (range.row_length(), window.row_stride());
+            window.u[to + end..to + stride].fill(T::default());
+            if scheme.exposure {
+                window.sum[to..to + stride].fill(T::default());
+            }
+            if let Some(factor) = scheme.factor {
+                let rates = window.rate[to..to + end].iter_mut();
+                let factors = &factor.values()[self.shape.position(row)..];
+                rates.zip(factors).for_each(|(rate, k)| *rate = T::from_f64(scheme.step * k));
+            }
+        }
+        for tile in self.tiles_around(range) {
+            let heat = &self.now[tile].heat;
+            let part = range.intersection(self.range_of(tile));
+            let scale = Scale::new(heat.exponent.saturating_sub(exponent));
+            for row in part.rows() {
+                let to = window.row(range.offset(row)) + row[0] - range.low[0];
+                let cells = &mut window.u[to..to + part.row_length()];
+                if heat.values.is_empty() {
+                    cells.fill(T::default());
+                } else {
+                    let values = &heat.values[self.place(row)..];
+                    let cells = cells.iter_mut().zip(values);
+                    cells.for_each(|(u, value)| *u = T::from_f64(scale.apply(*value)));
+                }
+            }
+        }
     }
+
+    /// Adds what the window has summed up to the exposure of a tile.
+    #[inline(always)]
+    fn add_exposure<T: Real>(
+        &self,
+        inside: Range<D>,
+        around: Range<D>,
+        window: &Window<T, D>,
+        exponent: i32,
+        exposure: &mut Scaled,
+    ) {
+        exposure.grow(exponent, self.tile_cells());
+        let scale = Scale::new(exponent - exposure.exponent);
+        for row in inside.rows() {
+            let from = window.row(around.offset(row)) + row[0] - around.low[0];
+            let sums = &window.sum[from..from + inside.row_length()];
+            let values = exposure.values[self.place(row)..].iter_mut();
+            values.zip(sums).for_each(|(value, sum)| *value += scale.apply(sum.to_f64()));
+        }
+    }
+
+    /// Copies the cells of a tile out of the window.
+    #[inline(always)]
+    fn store<T: Real>(
+        &self,
+        inside: Range<D>,
+        around: Range<D>,
+        window: &Window<T, D>,
+        next: &mut Temperature,
+    ) {
+        next.heat.values.resize(self.tile_cells(), 0.0);
+        next.largest = 0.0;
+        for row in inside.rows() {
+            let from = window.row(around.offset(row)) + row[0] - around.low[0];
+            let cells = &window.u[from..from + inside.row_length()];
+            let to = self.place(row);
+            let values = &mut next.heat.values[to..to + cells.len()];
+            values.iter_mut().zip(cells).for_each(|(value, u)| *value = trusted(u.to_f64()));
+            next.largest = largest(values).max(next.largest);
+        }
+    }
+}
+
+/// The logarithms of one [`Scaled`] per tile, as one field.
+fn logarithms<const D: usize>(
+    shape: Shape<D>,
+    tiling: Tiling<D>,
+    mut heat: Vec<Scaled>,
+    exec: &Exec,
+) -> Grid<f64, D> {
+    let tiles = Tiles::<D>::new(&shape, tiling);
+    let mut field = vec![f64::NEG_INFINITY; shape.cells()];
+    // Layers of tiles, which are whole in the field as well.
+    let cells = tiling.edge[D - 1] * shape.stride(D - 1);
+    let layers = heat.chunks_mut(tiles.tiles.stride(D - 1)).zip(field.chunks_mut(cells));
+    let mut layers: Vec<_> = layers.enumerate().collect();
+    let scratch: Vec<_> = (0..exec.threads()).map(|_| Mutex::new(())).collect();
+    exec.for_each(&mut layers, &scratch, |(), (layer, (heat, field))| {
+        for (number, heat) in heat.iter_mut().enumerate() {
+            let range = tiles.range_of(number + *layer * tiles.tiles.stride(D - 1));
+            let heat = std::mem::take(heat);
+            for row in range.rows().filter(|_| !heat.values.is_empty()) {
+                let (from, to) = (tiles.place(row), shape.position(row) - *layer * cells);
+                let n = range.row_length();
+                heat.ln(from..from + n, &mut field[to..to + n]);
+            }
+        }
+    });
+    drop(layers);
+    Grid::from_parts(shape, field)
 }
 
 impl<const D: usize> Range<D> {
@@ -275,7 +405,14 @@ impl<const D: usize> Range<D> {
         self.high[0] - self.low[0]
     }
 
+    /// Where a cell lies from the range's first, in cells; 0 along x, because rows begin there.
+    #[inline(always)]
+    fn offset(&self, cell: [usize; D]) -> [usize; D] {
+        std::array::from_fn(|axis| if axis == 0 { 0 } else { cell[axis] - self.low[axis] })
+    }
+
     /// The first cell of each row along x.
+    #[inline(always)]
     fn rows(self) -> impl Iterator<Item = [usize; D]> {
         let count: usize = (1..D).map(|axis| self.high[axis] - self.low[axis]).product();
         (0..count).map(move |number| {
