@@ -17,7 +17,7 @@ PACKAGES += ("scikit-sparse", "numpy", "scipy")
 BASELINES = ("heatpath, 1 thread", "heatpath, all threads")
 EXPLANATION = """
 Seconds on the wall: the median of the rounds and, in brackets, the quartiles. The next two columns
-are the time in units of heatpath's: the median of the ratios of each round, above 1 where heatpath
+are the time divided by heatpath's: the median of the ratios of each round, above 1 where heatpath
 is faster. Deviation: mean relative difference, beyond 10 cells from the source, from factored fast
 marching of order 2 on a grid up to 4 times finer; in the uniform square from the exact distance.
 """.strip()
@@ -80,9 +80,9 @@ def section(name: str, comparison: Comparison) -> str:
     rounds = max((len(result.seconds) for result in comparison.results.values()), default=0)
     baselines = [comparison.results.get(name) for name in BASELINES]
     lines = [
-        f"## {name}, {rounds} rounds",
+        f"## {name}, rounds: {rounds}",
         "",
-        "| program | seconds | in heatpath, 1 thread | in heatpath, all threads | deviation |",
+        "| program | seconds | / heatpath, 1 thread | / heatpath, all threads | deviation |",
         "| --- | --- | --- | --- | --- |",
     ]
     lines += [row(name, result, baselines) for name, result in comparison.results.items()]
