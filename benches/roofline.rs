@@ -27,7 +27,8 @@ struct Kernel {
 
 /// u, k and a conductance for each axis come in, the new u goes out; the exposure comes in and goes
 /// out. Each axis takes 6 operations, `g' (u' - u) - g (u - u")` and its sum; step and k take 3, the
-/// exposure 1.
+/// exposure 1. The limits take the bandwidth of the triad, without what the memory moves besides to
+/// fetch the lines that are written.
 const KERNELS: [Kernel; 3] = [
     Kernel { name: "2-D", bytes: 40.0, flops: 15.0 },
     Kernel { name: "2-D with exposure", bytes: 56.0, flops: 16.0 },
