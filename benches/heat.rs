@@ -1,45 +1,226 @@
-//! Explicit heat from a point source, with the default options: cell updates per second.
+//! Explicit heat: cell updates per second, by processor level, size, source and dimension; and what
+//! stands around it, from picture to distance.
 //!
-//! A point source is the honest start: most of the picture is cold for a while, and where heat
-//! arrives first it is small beyond the range of f64.
+//! A point source is the usual start: most of the picture is cold for a while, and where heat
+//! arrives first it is small beyond the range of f64. Only cells that heat can have reached count.
+//! From noise, a source in every 64th cell, the whole picture is hot at once.
 #![allow(missing_docs, reason = "criterion's macros make functions without documentation")]
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on should stop")]
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{
+    BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
+};
 use heatpath_core::Exec;
 use heatpath_core::exec::SimdLevel;
-use heatpath_core::grid::heat::{Explicit, HeatOptions};
-use heatpath_core::grid::{Grid, Shape, Sources, medium};
+use heatpath_core::grid::distance::normalized;
+use heatpath_core::grid::heat::{Duration, Explicit, HeatOptions, Step};
+use heatpath_core::grid::medium::{self, Medium};
+use heatpath_core::grid::{Grid, Shape, Sources};
 use std::hint::black_box;
+use std::ops::{Add, Mul, Sub};
+use std::time;
 
-fn heat(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("explicit heat, conductivity");
-    group.sample_size(10);
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+/// From a point with the default options; on one thread at each level of vector instructions.
+fn levels(criterion: &mut Criterion) {
+    let mut group = group(criterion, "levels");
     for side in [300, 600, 1200] {
-        let shape = Shape::new([side, side]).unwrap();
-        let image = Grid::from_fn(shape, |[x, y]| {
-            0.5 + 0.25 * (0.05 * x as f64).sin() + 0.25 * (0.07 * y as f64).cos()
-        });
-        let medium = medium::conductivity(&image, &[0.8], Default::default()).unwrap();
-        let middle = [side as f64 / 2.0; 2];
-        let sources = Sources::new(&[middle], medium.mask()).unwrap();
+        let medium = conductivity(&picture([side; 2]));
+        let sources = point(&medium);
         let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
-        group.throughput(Throughput::Elements((shape.cells() * explicit.iterations()) as u64));
-        let mut run = |name: String, exec: &Exec| {
-            group.bench_function(BenchmarkId::new(name, side), |bencher| {
-                bencher.iter(|| black_box(explicit.flow(&sources, exec).unwrap()));
-            });
-        };
+        let updates = medium.shape().cells() * explicit.iterations();
+        group.throughput(Throughput::Elements(updates as u64));
         for level in [SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512] {
             if level <= SimdLevel::best() {
                 let exec = Exec::single_threaded().with_simd(level);
-                run(format!("one thread, {}", level.name()), &exec);
+                let id = BenchmarkId::new(level.name(), side);
+                flow(&mut group, id, &explicit, &sources, &exec);
             }
         }
-        run("all threads".to_owned(), &Exec::new(0).unwrap());
+        let id = BenchmarkId::new("all threads", side);
+        flow(&mut group, id, &explicit, &sources, &Exec::new(0).unwrap());
     }
-    group.finish();
 }
 
-criterion_group!(benches, heat);
+/// Pictures, each with steps for 5e8 to 7e8 updates, and the unit of speed on the same pictures.
+fn plane(criterion: &mut Criterion) {
+    let mut group = group(criterion, "2-D");
+    for (side, point_steps, noise_steps) in [(1024, 1024, 640), (4096, 1024, 40)] {
+        let medium = conductivity(&picture([side; 2]));
+        from_point(&mut group, &medium, point_steps);
+        from_noise(&mut group, &medium, noise_steps);
+        unit_of_speed::<f64>(&mut group, "unit, f64", side, noise_steps);
+        unit_of_speed::<f32>(&mut group, "unit, f32", side, noise_steps);
+    }
+}
+
+/// Volumes.
+fn space(criterion: &mut Criterion) {
+    let mut group = group(criterion, "3-D");
+    for (side, point_steps, noise_steps) in [(128, 128, 120), (256, 160, 15)] {
+        let medium = conductivity(&picture([side; 3]));
+        from_point(&mut group, &medium, point_steps);
+        from_noise(&mut group, &medium, noise_steps);
+    }
+}
+
+/// From heat to distance.
+fn transform(criterion: &mut Criterion) {
+    let mut group = group(criterion, "transform");
+    for side in [1024, 4096] {
+        let medium = conductivity(&picture([side; 2]));
+        let explicit = Explicit::new(&medium, steps(16)).unwrap();
+        let heat = explicit.flow(&noise(&medium), &Exec::new(0).unwrap()).unwrap();
+        group.throughput(Throughput::Elements(medium.shape().cells() as u64));
+        group.bench_function(BenchmarkId::new("normalized", side), |bencher| {
+            bencher.iter(|| black_box(normalized(&heat)));
+        });
+    }
+}
+
+/// From picture to distance, with the default options.
+fn whole(criterion: &mut Criterion) {
+    let mut group = group(criterion, "whole");
+    for side in [512, 1024] {
+        let image = picture([side; 2]);
+        group.throughput(Throughput::Elements(image.shape().cells() as u64));
+        for (name, exec) in threads() {
+            group.bench_function(BenchmarkId::new(name, side), |bencher| {
+                bencher.iter(|| {
+                    let medium = conductivity(&image);
+                    let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
+                    let heat = explicit.flow(&point(&medium), &exec).unwrap();
+                    black_box(normalized(&heat))
+                });
+            });
+        }
+    }
+}
+
+fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
+    let mut group = criterion.benchmark_group(name);
+    group.sample_size(10).warm_up_time(time::Duration::from_secs(1));
+    group
+}
+
+fn threads() -> [(&'static str, Exec<'static>); 2] {
+    [("one thread", Exec::single_threaded()), ("all threads", Exec::new(0).unwrap())]
+}
+
+fn from_point<const D: usize>(group: &mut Group, medium: &Medium<D>, iterations: usize) {
+    let explicit = Explicit::new(medium, steps(iterations)).unwrap();
+    group.throughput(Throughput::Elements(updates_from_middle(medium.shape(), iterations)));
+    for (name, exec) in threads() {
+        let id = BenchmarkId::new(format!("point, {name}"), medium.shape().longest_side());
+        flow(group, id, &explicit, &point(medium), &exec);
+    }
+}
+
+fn from_noise<const D: usize>(group: &mut Group, medium: &Medium<D>, iterations: usize) {
+    let explicit = Explicit::new(medium, steps(iterations)).unwrap();
+    group.throughput(Throughput::Elements((medium.shape().cells() * iterations) as u64));
+    for (name, exec) in threads() {
+        let id = BenchmarkId::new(format!("noise, {name}"), medium.shape().longest_side());
+        flow(group, id, &explicit, &noise(medium), &exec);
+    }
+}
+
+fn flow<const D: usize>(
+    group: &mut Group,
+    id: BenchmarkId,
+    explicit: &Explicit<D>,
+    sources: &Sources<D>,
+    exec: &Exec,
+) {
+    group.bench_function(id, |bencher| {
+        bencher.iter(|| black_box(explicit.flow(sources, exec).unwrap()));
+    });
+}
+
+fn steps(iterations: usize) -> HeatOptions {
+    let duration = Duration::Iterations(iterations);
+    HeatOptions { duration, step: Step::Auto, ..Default::default() }
+}
+
+/// Grey values of waves.
+fn picture<const D: usize>(sides: [usize; D]) -> Grid<f64, D> {
+    Grid::from_fn(Shape::new(sides).unwrap(), |index| {
+        let wave = |axis: usize| (0.05 * (1.0 + 0.4 * axis as f64) * index[axis] as f64).sin();
+        0.5 + 0.5 / D as f64 * (0..D).map(wave).sum::<f64>()
+    })
+}
+
+fn conductivity<const D: usize>(image: &Grid<f64, D>) -> Medium<D> {
+    medium::conductivity(image, &[0.8], Default::default()).unwrap()
+}
+
+/// The cell in the middle.
+fn point<const D: usize>(medium: &Medium<D>) -> Sources<D> {
+    let middle = medium.shape().size().map(|side| (side / 2) as f64);
+    Sources::new(&[middle], medium.mask()).unwrap()
+}
+
+/// Every 64th cell.
+fn noise<const D: usize>(medium: &Medium<D>) -> Sources<D> {
+    let apart = if D == 2 { 8 } else { 4 };
+    let shape = medium.shape();
+    let points: Vec<[f64; D]> = (0..shape.cells())
+        .map(|cell| shape.index(cell))
+        .filter(|index| index.iter().all(|i| i % apart == 0))
+        .map(|index| index.map(|i| i as f64))
+        .collect();
+    Sources::new(&points, medium.mask()).unwrap()
+}
+
+/// The updates of cells that heat from the middle can have reached: it moves one cell a step.
+fn updates_from_middle<const D: usize>(shape: &Shape<D>, iterations: usize) -> u64 {
+    let from_middle = |index: [usize; D]| -> usize {
+        index.iter().zip(shape.size()).map(|(i, side)| i.abs_diff(side / 2)).sum()
+    };
+    (0..shape.cells())
+        .map(|cell| (iterations + 1).saturating_sub(from_middle(shape.index(cell)).max(1)) as u64)
+        .sum()
+}
+
+/// The unit of speed: what anybody would write first, compiled for any processor of the target.
+///
+/// It does less than the engine: no k, no exposure, and no range beyond that of `T`.
+fn unit_of_speed<T: Number>(group: &mut Group, name: &str, side: usize, iterations: usize) {
+    let cells = side * side;
+    let across = vec![T::from(0.2_f32); cells];
+    let down = across.clone();
+    let mut u: Vec<T> = (0..cells).map(|cell| T::from((cell % 64 == 0).into())).collect();
+    let mut next = u.clone();
+    group.throughput(Throughput::Elements((cells * iterations) as u64));
+    group.bench_function(BenchmarkId::new(name, side), |bencher| {
+        bencher.iter(|| {
+            for _ in 0..iterations {
+                unit_step(&mut next, &u, &across, &down, side);
+                std::mem::swap(&mut next, &mut u);
+            }
+            black_box(&u);
+        });
+    });
+}
+
+trait Number: Copy + From<f32> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+impl Number for f32 {}
+impl Number for f64 {}
+
+/// One step inside a border one cell wide, which stays as it is. `across` and `down` hold the
+/// conductances to the cell before, times the step.
+#[inline(never)]
+fn unit_step<T: Number>(next: &mut [T], u: &[T], across: &[T], down: &[T], side: usize) {
+    for y in 1..side - 1 {
+        for i in y * side + 1..(y + 1) * side - 1 {
+            next[i] = u[i]
+                + (across[i + 1] * (u[i + 1] - u[i]) - across[i] * (u[i] - u[i - 1]))
+                + (down[i + side] * (u[i + side] - u[i]) - down[i] * (u[i] - u[i - side]));
+        }
+    }
+}
+
+criterion_group!(benches, levels, plane, space, transform, whole);
 criterion_main!(benches);
