@@ -135,7 +135,11 @@ impl hp_options {
                 )));
             }
         };
-        let step = if self.step == 0.0 { Step::Auto } else { Step::Fixed(self.step) };
+        let step = match self.step {
+            0.0 => Step::Auto,
+            step if step.is_nan() => Step::Usual,
+            step => Step::Fixed(step),
+        };
         Ok(HeatOptions { duration, step, face_mean: FaceMean::default() })
     }
 }
