@@ -89,7 +89,7 @@ pub struct hp_options {
     /// to fit. 0, the default, leaves it to the iterations.
     pub time: f64,
     /// The time step, in units of the smallest spacing squared. Not a number (NAN), the default,
-    /// stands for 0.2 in images and 2/15 in volumes; 0 takes a safe fraction of the largest one
+    /// stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
     /// that the medium allows.
     pub step: f64,
     /// HP_NORMALIZED, the default, or HP_VARADHAN.
