@@ -271,7 +271,7 @@ typedef struct hp_options {
   double range_high;
   /**
    * The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-   * longest side of the image, unless a time is given.
+   * longest side of a picture and three times that of a volume, unless a time is given.
    */
   uint64_t iterations;
   /**

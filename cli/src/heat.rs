@@ -65,7 +65,7 @@ fn options(args: &HeatArgs) -> HeatOptions {
         duration: match (args.iterations, args.time) {
             (Some(iterations), _) => Duration::Iterations(iterations),
             (None, Some(time)) => Duration::Time(time),
-            (None, None) => Duration::TwiceLongestSide,
+            (None, None) => Duration::Usual,
         },
         step: match args.step {
             None => Step::Usual,

@@ -88,6 +88,15 @@ fn a_stack_is_the_same_volume_and_every_output_agrees() {
     assert_eq!(info["max"].as_f64().unwrap(), f64::from(largest as f32));
 }
 
+/// Heat moves one cell a step, and the way from corner to corner is the sum of all sides.
+#[test]
+fn the_default_reaches_every_corner() {
+    let bench = Bench::new();
+    bench.write_npy("cube.npy", &[9, 10, 11], |i| (i % 5) as f64);
+    let report = bench.json("distance cube.npy --source 0,0,0 -o d.npy --json");
+    assert_eq!((&report["iterations"], &report["unreached"]), (&json!(33), &json!(0)));
+}
+
 #[test]
 fn every_medium_works_out_of_the_box() {
     let bench = bench();

@@ -83,7 +83,7 @@ pub struct hp_options {
     /// largest value of the type if pixels are HP_U8 or HP_U16, and else for that of the image.
     pub range_high: f64,
     /// The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-    /// longest side of the image, unless a time is given.
+    /// longest side of a picture and three times that of a volume, unless a time is given.
     pub iterations: u64,
     /// The time for which heat flows, in units of the smallest spacing squared; steps are shortened
     /// to fit. 0, the default, leaves it to the iterations.

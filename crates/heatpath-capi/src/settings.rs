@@ -126,7 +126,7 @@ impl hp_options {
     fn heat(&self) -> Result<HeatOptions, Failure> {
         let iterations = usize::try_from(self.iterations).unwrap_or(usize::MAX);
         let duration = match (iterations, self.time) {
-            (0, 0.0) => Duration::TwiceLongestSide,
+            (0, 0.0) => Duration::Usual,
             (0, time) => Duration::Time(time),
             (iterations, 0.0) => Duration::Iterations(iterations),
             (iterations, time) => {

@@ -195,3 +195,19 @@ fn the_usual_step_is_stable_in_images_and_volumes() {
     assert_eq!(step([1.0, 1.0, 1.0]), 0.8 / 6.0);
     assert_eq!(step([0.4, 0.4, 2.5]), 0.8 / 6.0);
 }
+
+/// Heat moves one cell a step: by default it gets from corner to corner.
+#[test]
+fn the_usual_duration_crosses_images_and_volumes() {
+    fn reached<const D: usize>(size: [usize; D]) -> usize {
+        let shape = Shape::new(size).unwrap();
+        let medium = medium::uniform(shape);
+        let corner = Sources::new(&[[0.0; D]], medium.mask()).unwrap();
+        let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
+        assert_eq!(explicit.iterations(), D * shape.longest_side());
+        let heat = explicit.flow(&corner, &Exec::single_threaded()).unwrap();
+        heat.ln_temperature().values().iter().filter(|ln_u| ln_u.is_finite()).count()
+    }
+    assert_eq!(reached([12, 12]), 144);
+    assert_eq!(reached([12, 11, 12]), 12 * 11 * 12);
+}

@@ -17,10 +17,11 @@ use thiserror::Error;
 /// How long heat flows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Duration {
-    /// Twice as many steps as the longest side has cells, so that heat can cross any open picture
-    /// (the paper's choice for voting; heat moves one cell a step).
+    /// As many steps as the longest side has cells, times the dimension: twice that side in images,
+    /// the paper's choice for voting, three times in volumes. Heat moves one cell a step, so it can
+    /// cross any open grid, from corner to corner.
     #[default]
-    TwiceLongestSide,
+    Usual,
     /// This many steps.
     Iterations(usize),
     /// This much time, in cell units (multiples of the smallest spacing squared); the step is
@@ -143,7 +144,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
         if step > largest_stable {
             return Err(HeatError::StepTooLarge { step, largest_stable });
         }
-        let (iterations, step) = steps(options.duration, step, medium.shape().longest_side())?;
+        let usual = (D * medium.shape().longest_side()) as f64;
+        let (iterations, step) = steps(options.duration, step, usual)?;
         Ok(Self { medium, operator, iterations, step })
     }
 
@@ -259,14 +261,14 @@ impl<'a, const D: usize> Explicit<'a, D> {
     }
 }
 
-/// The number of steps and their length.
-fn steps(duration: Duration, step: f64, longest_side: usize) -> Result<(usize, f64), HeatError> {
+/// The number of steps, which usually is `usual`, and their length.
+fn steps(duration: Duration, step: f64, usual: f64) -> Result<(usize, f64), HeatError> {
     let usable = |step: f64| step.is_finite() && step >= SMALLEST_STEP;
     if !usable(step) {
         return Err(HeatError::Step(step));
     }
     let (iterations, step) = match duration {
-        Duration::TwiceLongestSide => (2.0 * longest_side as f64, step),
+        Duration::Usual => (usual, step),
         Duration::Iterations(iterations) => (iterations as f64, step),
         Duration::Time(time) if !(time.is_finite() && time > 0.0) => {
             return Err(HeatError::Time(time));
