@@ -218,8 +218,8 @@ pub(crate) struct MediumArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct HeatArgs {
-    /// How many time steps; heat moves one pixel a step [default: twice the longest side in pictures,
-    /// three times in volumes].
+    /// How many time steps; heat moves one pixel a step [default: twice the longest side in
+    /// pictures, three times in volumes].
     #[arg(long, value_name = "N", conflicts_with = "time", help_heading = "Heat")]
     pub(crate) iterations: Option<usize>,
     /// How long heat flows, in pixels squared.

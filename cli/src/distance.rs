@@ -79,8 +79,8 @@ fn distance_in<const D: usize>(
     output::tell(
         &args.out,
         &format!(
-            "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, {unreached} \
-             not; {iterations} iterations in {:.2} s",
+            "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, \
+             {unreached} not; {iterations} iterations in {:.2} s",
             size_text(size),
             report.seconds.heat
         ),

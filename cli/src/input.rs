@@ -15,8 +15,8 @@ use std::path::Path;
 /// The names of the coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The input, which is a picture or a volume: here ways part, and each command calls a function that
-/// is generic over the dimension.
+/// The input, which is a picture or a volume: here ways part, and each command calls a function
+/// that is generic over the dimension.
 pub(crate) enum Input {
     Picture(ImageFile),
     Volume(ImageFile),
