@@ -184,7 +184,8 @@ fn coordinates<const D: usize>(option: &str, given: &Numbers) -> Result<[f64; D]
         let (numbers, needed) = (text.join(","), AXES[..D].join(","));
         let input = if D == 2 { "picture" } else { "volume" };
         Failure::usage(format!(
-            "--{option} {numbers}: has {} numbers, but the input is a {input} and needs {D}: {needed}",
+            "--{option} {numbers}: has {} numbers, but the input is a {input} and needs {D}: \
+             {needed}",
             text.len()
         ))
     })

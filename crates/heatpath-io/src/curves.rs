@@ -30,8 +30,8 @@ impl<const D: usize> Curves<D> {
 /// - `.csv`: one row a point with the columns `path,point,x,y,ended` (in volumes
 ///   `path,point,x,y,z,ended`), all counted from 0, with as many digits as are needed to read the
 ///   same numbers back;
-/// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at 0,0), as large as
-///   the picture of the given `shape`, to be laid over it.
+/// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at
+///   0,0), as large as the picture of the given `shape`, to be laid over it.
 ///
 /// # Errors
 /// The format is unknown or for pictures only, the folder is missing, the file exists and

@@ -15,8 +15,8 @@ const STYLE: &str = "polyline { fill: none; stroke: #0090d0; stroke-width: 1.5px
     circle { stroke: #000; stroke-width: 0.3 } circle.end { fill: #fff } \
     circle.source { fill: #e00000 }";
 
-/// The drawing in pixel coordinates, of which the first two count: the centre of the first pixel is at 0,0 and the view is the
-/// picture's outline.
+/// The drawing in pixel coordinates, of which the first two count: the centre of the first pixel is
+/// at 0,0 and the view is the picture's outline.
 pub(crate) fn drawing<const D: usize>(curves: &Curves<D>, shape: &Shape<D>) -> String {
     let (width, height) = (shape.size()[0], shape.size()[1]);
     let radius = (shape.longest_side() as f64 / 150.0).clamp(0.5, 6.0);
