@@ -1,4 +1,4 @@
-/* heatpath: geodesic distances and paths on images by letting heat flow through them.
+/* heatpath: geodesic distances and paths on images and volumes by letting heat flow through them.
  *
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
@@ -173,9 +173,9 @@ typedef int32_t hp_status;
  * The caller's pixels, described but never owned or kept: one number per pixel.
  *
  * Fill it with hp_buffer_init(), then set data, type, size, and where needed the rest. The pixel
- * at column x and row y is found at data + x * byte_stride[0] + y * byte_stride[1]. With that
- * rule a buffer can be a part of a larger picture, one channel of a coloured one, or upside down.
- * Pixels need not be aligned.
+ * at column x, row y and slice z is found at data + x * byte_stride[0] + y * byte_stride[1] + z *
+ * byte_stride[2]. With that rule a buffer can be a part of a larger picture or volume, one channel
+ * of a coloured one, or upside down. Pixels need not be aligned, but must not overlap.
  *
  * Any number of threads may read the same buffer at once. Functions that take an input only
  * read it, although data is not const.
@@ -188,17 +188,20 @@ typedef struct hp_buffer {
    * machine. There is no default.
    */
   uint32_t type;
-  /** The number of axes: 2, the default. The third entry of the arrays below is then ignored. */
+  /**
+   * The number of axes: 2, the default, for a picture; 3 for a volume. With 2 the third entry of
+   * the arrays below is ignored.
+   */
   uint32_t dimension;
   /** 0. */
   uint32_t reserved;
-  /** The first pixel: column 0, row 0. */
+  /** The first pixel: column 0, row 0, slice 0. */
   void *data;
-  /** The pixels along each axis: columns, rows. */
+  /** The pixels along each axis: columns, rows, slices. */
   uint64_t size[3];
   /**
    * The bytes from a pixel to the next one along each axis; negative if that one lies before it
-   * in memory. 0, the default, means that pixels, or rows, follow each other without gaps.
+   * in memory. 0, the default, means that pixels, rows or slices follow each other without gaps.
    */
   int64_t byte_stride[3];
   /**
@@ -268,7 +271,7 @@ typedef struct hp_options {
   double range_high;
   /**
    * The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-   * longest side of the image, unless a time is given.
+   * longest side of a picture and three times that of a volume, unless a time is given.
    */
   uint64_t iterations;
   /**
@@ -277,8 +280,9 @@ typedef struct hp_options {
    */
   double time;
   /**
-   * The time step, in units of the smallest spacing squared; 0.2 by default, and 0 takes a
-   * safe fraction of the largest one that the medium allows.
+   * The time step, in units of the smallest spacing squared. Not a number (NAN), the default,
+   * stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
+   * that the medium allows.
    */
   double step;
   /** HP_NORMALIZED, the default, or HP_VARADHAN. */
@@ -359,12 +363,14 @@ hp_status hp_options_init(struct hp_options *options, uint32_t struct_size);
 /**
  * Computes the distance of every pixel from the nearest source, by letting heat flow.
  *
- * image: the picture that makes the medium, see hp_options; any type of pixel.
+ * image: the picture or volume that makes the medium, see hp_options; any type of pixel. Its
+ * dimension, 2 or 3, is that of all other arguments.
  *
  * mask: pixels that are 0 are walls, all others are open; of the same size. NULL for no walls.
  *
- * sources: source_count pairs x, y in pixel coordinates: 0, 0 is the centre of the first pixel, x
- * runs to the right and y down; fractions are allowed.
+ * sources: source_count points of as many coordinates as the image has dimensions, x, y or
+ * x, y, z, in pixels: 0, 0, 0 is the centre of the first one, x runs along the row, y from row to
+ * row, z from slice to slice; fractions are allowed.
  *
  * options: NULL for the defaults.
  *
@@ -389,7 +395,7 @@ hp_status hp_distance(const struct hp_buffer *image,
  *
  * image, mask, sources, source_count and options are those of hp_distance().
  *
- * ends: end_count pairs x, y in pixel coordinates.
+ * ends: end_count points like the sources.
  *
  * paths: receives the paths, to be freed with hp_paths_free(), or NULL if anything but HP_OK is
  * returned.
@@ -435,19 +441,20 @@ hp_status hp_paths_count(const struct hp_paths *paths, uint64_t *count);
 hp_status hp_paths_info(const struct hp_paths *paths, uint64_t index, struct hp_path_info *info);
 
 /**
- * Copies the points of a path, pairs x, y in pixel coordinates, from the end point to the source.
+ * Copies the points of a path, in pixel coordinates, from the end point to the source.
  *
- * xy: receives twice as many doubles as hp_path_info.point_count says.
+ * coordinates: receives x, y of each point or, if the image was a volume, x, y, z: two or three
+ * times as many doubles as hp_path_info.point_count says.
  *
- * capacity: how many points xy has room for. If it is too small nothing is written.
+ * capacity: how many points there is room for. If it is too small nothing is written.
  *
  * The caller promises:
- * paths is NULL or comes from hp_paths_create(); xy is NULL or has room for twice capacity
- * doubles.
+ * paths is NULL or comes from hp_paths_create(); coordinates is NULL or has room for
+ * capacity points of two or, if the image was a volume, three doubles.
  */
 hp_status hp_paths_points(const struct hp_paths *paths,
                           uint64_t index,
-                          double *xy,
+                          double *coordinates,
                           uint64_t capacity);
 
 #ifdef __cplusplus

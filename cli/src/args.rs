@@ -5,8 +5,11 @@ use std::path::PathBuf;
 
 /// Geodesic distances and minimal paths on images, by letting heat flow through them.
 ///
-/// Points are pixel coordinates `x,y`: x to the right, y down, the centre of the first pixel at
-/// 0,0; fractions are allowed.
+/// Images are pictures (PNG, JPEG, TIFF, PNM, NPY) or volumes: TIFF with several grey pages of one
+/// size, or NPY with three axes (slices, rows, columns).
+///
+/// Points are pixel coordinates `x,y` or, in volumes, `x,y,z`: x to the right, y down, z from slice
+/// to slice, the centre of the first pixel at 0,0; fractions are allowed.
 #[derive(Debug, Parser)]
 #[command(name = "heatpath", version, after_help = EXIT_CODES)]
 pub(crate) struct Args {
@@ -26,7 +29,7 @@ pub(crate) enum Command {
     Path(PathArgs),
     /// Write the medium alone (k D, the squared speed) to look at what the heat will see.
     Medium(MediumCommandArgs),
-    /// Say what is in a picture file: size, type, range.
+    /// Say what is in a file: size, type, range.
     Info(InfoArgs),
     /// Print a completion script for a shell.
     Completions(CompletionsArgs),
@@ -43,8 +46,8 @@ pub(crate) struct DistanceArgs {
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
     pub(crate) heat: HeatArgs,
-    /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats), or .png (a
-    /// colour-mapped picture). Not reached is infinite.
+    /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats, a page a slice), or, not
+    /// for volumes, .png (a colour-mapped picture). Not reached is infinite.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -59,8 +62,8 @@ pub(crate) struct PathArgs {
     #[command(flatten)]
     pub(crate) sources: SourceArgs,
     /// Trace a path from this point (repeatable).
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub(crate) end: Vec<[f64; 2]>,
+    #[arg(long, value_name = "X,Y[,Z]", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) end: Vec<Numbers>,
     /// Trace paths from the points in this CSV or JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) ends: Option<PathBuf>,
@@ -68,7 +71,7 @@ pub(crate) struct PathArgs {
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
     pub(crate) heat: HeatArgs,
-    /// Where the paths go: .json, .csv or .svg.
+    /// Where the paths go: .json, .csv or, not for volumes, .svg.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -84,7 +87,7 @@ pub(crate) struct MediumCommandArgs {
     pub(crate) sources: OptionalSourceArgs,
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
-    /// Where the medium goes: .npy, .tif or .png.
+    /// Where the medium goes: .npy, .tif or, not for volumes, .png.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -93,7 +96,7 @@ pub(crate) struct MediumCommandArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
-    /// The file: PNG, JPEG, TIFF, PNM or NPY.
+    /// The file: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes.
     pub(crate) input: PathBuf,
     /// Print one JSON object.
     #[arg(long)]
@@ -113,7 +116,7 @@ fn result_group() -> ArgGroup {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PictureArgs {
-    /// The picture: PNG, JPEG, TIFF, PNM or NPY.
+    /// The picture or volume: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes.
     pub(crate) input: PathBuf,
     /// Which channel of a colour picture counts.
     #[arg(long, default_value = "luma", help_heading = "Picture")]
@@ -122,13 +125,20 @@ pub(crate) struct PictureArgs {
     /// the picture's own].
     #[arg(long, value_name = "LO,HI", value_parser = pair, allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) range: Option<[f64; 2]>,
-    /// The physical size of a pixel.
-    #[arg(long, value_name = "SX,SY", value_parser = pair, default_value = "1,1", help_heading = "Picture")]
-    pub(crate) spacing: [f64; 2],
+    /// The physical size of a pixel: width, height and, in volumes, the distance of slices
+    /// [default: 1 each].
+    #[arg(
+        long,
+        value_name = "SX,SY[,SZ]",
+        value_parser = point,
+        allow_hyphen_values = true,
+        help_heading = "Picture"
+    )]
+    pub(crate) spacing: Option<Numbers>,
     /// Read points and --smooth in physical units (--spacing) instead of pixels.
     #[arg(long, help_heading = "Picture")]
     pub(crate) physical: bool,
-    /// A picture of the same size whose zeros are walls.
+    /// A picture or volume of the same size whose zeros are walls.
     #[arg(long, value_name = "FILE", help_heading = "Picture")]
     pub(crate) mask: Option<PathBuf>,
 }
@@ -143,8 +153,8 @@ pub(crate) struct SourceArgs {
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptionalSourceArgs {
     /// Heat starts at this point (repeatable).
-    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
-    pub(crate) source: Vec<[f64; 2]>,
+    #[arg(long, value_name = "X,Y[,Z]", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) source: Vec<Numbers>,
     /// Heat starts at the points in this CSV or JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) sources: Option<PathBuf>,
@@ -208,15 +218,23 @@ pub(crate) struct MediumArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct HeatArgs {
-    /// How many time steps [default: twice the longest side].
+    /// How many time steps; heat moves one pixel a step [default: twice the longest side in
+    /// pictures, three times in volumes].
     #[arg(long, value_name = "N", conflicts_with = "time", help_heading = "Heat")]
     pub(crate) iterations: Option<usize>,
     /// How long heat flows, in pixels squared.
     #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Heat")]
     pub(crate) time: Option<f64>,
-    /// The time step in pixels squared, or `auto` for a safe part of the largest stable one.
-    #[arg(long, value_name = "TAU", value_parser = step, allow_negative_numbers = true, default_value = "0.2", help_heading = "Heat")]
-    pub(crate) step: StepArg,
+    /// The time step in pixels squared, or `auto` for a safe part of the largest stable one
+    /// [default: 0.2 in pictures, 2/15 in volumes].
+    #[arg(
+        long,
+        value_name = "TAU",
+        value_parser = step,
+        allow_negative_numbers = true,
+        help_heading = "Heat"
+    )]
+    pub(crate) step: Option<StepArg>,
     /// The mean that makes the coefficient of a face from those of its two pixels.
     #[arg(long, default_value = "harmonic", help_heading = "Heat")]
     pub(crate) face_mean: FaceMeanArg,
@@ -236,7 +254,7 @@ pub(crate) struct HeatArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct OutputArgs {
-    /// A picture of the result on the input (.png).
+    /// A picture of the result on the input (.png); not for volumes.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) overlay: Option<PathBuf>,
     /// The format of --output [default: as the file's ending].
@@ -327,11 +345,14 @@ fn pair(text: &str) -> Result<[f64; 2], String> {
     pair.ok_or_else(|| "expected two numbers with a comma between them".to_owned())
 }
 
-fn point(text: &str) -> Result<[f64; 2], String> {
-    match numbers(text).as_deref() {
-        Some(&[x, y]) => Ok([x, y]),
-        Some([_, _, _]) => Err("a point in a picture is x,y; this one has three".to_owned()),
-        _ => Err("expected a point x,y".to_owned()),
+/// The numbers of a point or spacing, one an axis. The input decides how many are right.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Numbers(pub(crate) Vec<f64>);
+
+fn point(text: &str) -> Result<Numbers, String> {
+    match numbers(text) {
+        Some(numbers) if matches!(numbers.len(), 2 | 3) => Ok(Numbers(numbers)),
+        _ => Err("expected two numbers x,y or, in volumes, three x,y,z".to_owned()),
     }
 }
 
@@ -346,10 +367,10 @@ mod tests {
     }
 
     #[test]
-    fn points_are_two_numbers() {
-        assert_eq!(point("1.5,-2"), Ok([1.5, -2.0]));
-        assert_eq!(point(" 1 , 2 "), Ok([1.0, 2.0]));
-        for bad in ["", "1", "1,2,3", "a,b", "1;2", "1,"] {
+    fn points_are_two_or_three_numbers() {
+        assert_eq!(point("1.5,-2"), Ok(Numbers(vec![1.5, -2.0])));
+        assert_eq!(point(" 1 , 2 ,3"), Ok(Numbers(vec![1.0, 2.0, 3.0])));
+        for bad in ["", "1", "1,2,3,4", "a,b", "1;2", "1,"] {
             assert!(point(bad).is_err(), "{bad}");
         }
     }

@@ -3,15 +3,16 @@
 use crate::args::DistanceArgs;
 use crate::failure::Failure;
 use crate::heat::{Outcome, flow};
-use crate::input::Picture;
+use crate::input::{Input, Picture, size_text};
 use crate::output;
-use heatpath_io::{FieldFormat, FieldStyle, Overlay, write_field, write_overlay};
+use heatpath_io::{FieldFormat, FieldStyle, ImageFile, Overlay, write_field, write_overlay};
 use serde::Serialize;
 use std::time::Instant;
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Report {
+    size: Vec<usize>,
     min: f64,
     max: f64,
     mean: f64,
@@ -36,7 +37,20 @@ struct Seconds {
 pub(crate) fn distance(args: &DistanceArgs) -> Result<(), Failure> {
     let start = Instant::now();
     output::check(args.output.as_deref(), &FieldFormat::ENDINGS, &args.out)?;
-    let picture = Picture::read(&args.picture)?;
+    let given = &args.sources.points;
+    match Input::read(&args.picture, &[&given.source])? {
+        Input::Picture(file) => distance_in::<2>(args, file, start),
+        Input::Volume(file) => distance_in::<3>(args, file, start),
+    }
+}
+
+fn distance_in<const D: usize>(
+    args: &DistanceArgs,
+    file: ImageFile,
+    start: Instant,
+) -> Result<(), Failure> {
+    output::check_dimension(args.output.as_deref(), &args.out, D)?;
+    let picture = Picture::<D>::new(&args.picture, file)?;
     let given = &args.sources.points;
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let medium_start = Instant::now();
@@ -61,21 +75,23 @@ pub(crate) fn distance(args: &DistanceArgs) -> Result<(), Failure> {
     if args.out.json {
         output::print_json(&report)?;
     }
-    let Report { min, max, mean, reached, unreached, iterations, .. } = report;
+    let Report { size, min, max, mean, reached, unreached, iterations, .. } = report;
     output::tell(
         &args.out,
         &format!(
-            "distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, {unreached} \
-             not; {iterations} iterations in {:.2} s",
+            "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, \
+             {unreached} not; {iterations} iterations in {:.2} s",
+            size_text(size),
             report.seconds.heat
         ),
     );
     Ok(())
 }
 
-fn report(outcome: &Outcome, open_cells: usize) -> Report {
+fn report<const D: usize>(outcome: &Outcome<D>, open_cells: usize) -> Report {
     let reached = outcome.distances.reached().count();
     Report {
+        size: outcome.heat.shape().size().to_vec(),
         min: outcome.distances.reached().fold(f64::INFINITY, f64::min),
         max: outcome.distances.reached().fold(0.0, f64::max),
         mean: outcome.distances.reached().sum::<f64>() / reached as f64,

@@ -70,7 +70,7 @@ impl From<ReadError> for Failure {
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
         match error {
-            WriteError::Ending { .. } => Self::usage(error),
+            WriteError::Ending { .. } | WriteError::Volume { .. } => Self::usage(error),
             WriteError::Exists { .. } => Self::file(format!("{error}; --force overwrites it")),
             _ => Self::file(error),
         }

@@ -14,9 +14,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Heat that has flowed, the distances read from it, and how long both took.
-pub(crate) struct Outcome {
-    pub(crate) heat: Heat<2>,
-    pub(crate) distances: DistanceMap<2>,
+pub(crate) struct Outcome<const D: usize> {
+    pub(crate) heat: Heat<D>,
+    pub(crate) distances: DistanceMap<D>,
     pub(crate) heat_seconds: f64,
     pub(crate) distance_seconds: f64,
     pub(crate) threads: usize,
@@ -24,12 +24,12 @@ pub(crate) struct Outcome {
 }
 
 /// Lets heat flow from `sources` through `medium` and reads it as distances.
-pub(crate) fn flow(
-    medium: &Medium<2>,
-    sources: &[[f64; 2]],
+pub(crate) fn flow<const D: usize>(
+    medium: &Medium<D>,
+    sources: &[[f64; D]],
     args: &HeatArgs,
     quiet: bool,
-) -> Result<Outcome, Failure> {
+) -> Result<Outcome<D>, Failure> {
     let sources = Sources::new(sources, medium.mask())?;
     let explicit = Explicit::new(medium, options(args))?;
     let bar = progress_bar(quiet);
@@ -65,11 +65,12 @@ fn options(args: &HeatArgs) -> HeatOptions {
         duration: match (args.iterations, args.time) {
             (Some(iterations), _) => Duration::Iterations(iterations),
             (None, Some(time)) => Duration::Time(time),
-            (None, None) => Duration::TwiceLongestSide,
+            (None, None) => Duration::Usual,
         },
         step: match args.step {
-            StepArg::Auto => Step::Auto,
-            StepArg::Fixed(step) => Step::Fixed(step),
+            None => Step::Usual,
+            Some(StepArg::Auto) => Step::Auto,
+            Some(StepArg::Fixed(step)) => Step::Fixed(step),
         },
         face_mean: match args.face_mean {
             FaceMeanArg::Arithmetic => FaceMean::Arithmetic,

@@ -2,6 +2,7 @@
 
 use crate::args::InfoArgs;
 use crate::failure::Failure;
+use crate::input::size_text;
 use crate::output;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
@@ -9,15 +10,16 @@ pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
     if args.json {
         return output::print_json(&info);
     }
-    let [width, height] = info.size;
     let values = match (info.min, info.max) {
         (Some(min), Some(max)) => format!("values from {min} to {max}"),
         _ => "no finite values".to_owned(),
     };
     output::print(&format!(
-        "{}: {}, {width} x {height} pixels, channels: {}, type: {}, {values}",
+        "{}: {}, {} {}, channels: {}, type: {}, {values}",
         args.input.display(),
         info.format,
+        size_text(&info.size),
+        if info.size.len() == 2 { "pixels" } else { "voxels" },
         info.channels,
         info.sample,
     ))

@@ -1,26 +1,55 @@
 //! From the command line to the nouns of the engine.
 
 use crate::args::{
-    ChannelArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, OptionalSourceArgs, PictureArgs,
+    ChannelArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, Numbers, OptionalSourceArgs,
+    PictureArgs,
 };
 use crate::failure::Failure;
 use heatpath_core::grid::medium::{
     self, ConductivityOptions, EdgeStop, EdgesOptions, Form, Medium, PeronaMalikOptions,
 };
 use heatpath_core::grid::{Grid, Mask, Shape, check_points};
-use heatpath_io::{Channel, PictureOptions, read_field, read_mask, read_picture, read_points};
+use heatpath_io::{Channel, ImageFile, PictureOptions, read_field, read_mask, read_points};
 use std::path::Path;
 
-/// The picture and its walls.
-pub(crate) struct Picture<'a> {
-    args: &'a PictureArgs,
-    pub(crate) image: Grid<f64, 2>,
-    pub(crate) mask: Mask<2>,
+/// The names of the coordinates.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The input, which is a picture or a volume: here ways part, and each command calls a function
+/// that is generic over the dimension.
+pub(crate) enum Input {
+    Picture(ImageFile),
+    Volume(ImageFile),
 }
 
-impl<'a> Picture<'a> {
-    pub(crate) fn read(args: &'a PictureArgs) -> Result<Self, Failure> {
-        Shape::with_spacing([1, 1], args.spacing)?;
+impl Input {
+    /// Reads the file. Where it can be both, the numbers of `points` and of the spacing decide.
+    pub(crate) fn read(args: &PictureArgs, points: &[&[Numbers]]) -> Result<Self, Failure> {
+        let file = ImageFile::read(&args.input)?;
+        let given = points.iter().copied().flatten().chain(&args.spacing).next();
+        let dimensions = file.dimensions();
+        let wanted = given.map(|numbers| numbers.0.len()).filter(|n| dimensions.contains(n));
+        Ok(match wanted.unwrap_or(dimensions[0]) {
+            2 => Self::Picture(file),
+            _ => Self::Volume(file),
+        })
+    }
+}
+
+/// The picture or volume and its walls.
+pub(crate) struct Picture<'a, const D: usize> {
+    args: &'a PictureArgs,
+    pub(crate) image: Grid<f64, D>,
+    pub(crate) mask: Mask<D>,
+}
+
+impl<'a, const D: usize> Picture<'a, D> {
+    pub(crate) fn new(args: &'a PictureArgs, file: ImageFile) -> Result<Self, Failure> {
+        let spacing = match &args.spacing {
+            Some(spacing) => coordinates("spacing", spacing)?,
+            None => [1.0; D],
+        };
+        Shape::with_spacing([1; D], spacing)?;
         let options = PictureOptions {
             channel: match args.channel {
                 ChannelArg::Red => Channel::Red,
@@ -29,11 +58,11 @@ impl<'a> Picture<'a> {
                 ChannelArg::Luma => Channel::Luma,
             },
             range: args.range.map(|[low, high]| (low, high)),
-            spacing: args.spacing,
+            spacing,
         };
-        let image = read_picture(&args.input, &options)?;
+        let image = file.into_picture(&options)?;
         let mask = match &args.mask {
-            Some(file) => read_mask(file, args.spacing)?,
+            Some(file) => read_mask(file, spacing)?,
             None => Mask::all_open(*image.shape()),
         };
         check_size(args.mask.as_deref(), mask.shape(), image.shape())?;
@@ -44,16 +73,19 @@ impl<'a> Picture<'a> {
     pub(crate) fn points(
         &self,
         role: &'static str,
-        given: &[[f64; 2]],
+        given: &[Numbers],
         file: Option<&Path>,
-    ) -> Result<Vec<[f64; 2]>, Failure> {
-        let mut points = given.to_vec();
+    ) -> Result<Vec<[f64; D]>, Failure> {
+        let given = given.iter().map(|numbers| coordinates(role, numbers));
+        let mut points = given.collect::<Result<Vec<[f64; D]>, _>>()?;
         if let Some(file) = file {
-            points.extend(read_points(file)?);
+            points.extend(read_points::<D>(file)?);
         }
         if self.args.physical {
-            let spacing = self.args.spacing;
-            points = points.iter().map(|p| [p[0] / spacing[0], p[1] / spacing[1]]).collect();
+            let spacing = self.image.shape().spacing();
+            for point in &mut points {
+                *point = std::array::from_fn(|axis| point[axis] / spacing[axis]);
+            }
         }
         check_points(role, &points, &self.mask)?;
         Ok(points)
@@ -63,7 +95,7 @@ impl<'a> Picture<'a> {
     pub(crate) fn optional_sources(
         &self,
         args: &OptionalSourceArgs,
-    ) -> Result<Vec<[f64; 2]>, Failure> {
+    ) -> Result<Vec<[f64; D]>, Failure> {
         if args.source.is_empty() && args.sources.is_none() {
             return Ok(Vec::new());
         }
@@ -74,8 +106,8 @@ impl<'a> Picture<'a> {
     pub(crate) fn medium(
         &self,
         args: &MediumArgs,
-        sources: &[[f64; 2]],
-    ) -> Result<Medium<2>, Failure> {
+        sources: &[[f64; D]],
+    ) -> Result<Medium<D>, Failure> {
         let image = &self.image;
         let divergence = form(args, Form::Divergence);
         let smoothing = self.smoothing(args.smooth);
@@ -108,19 +140,19 @@ impl<'a> Picture<'a> {
         Ok(medium.with_walls(self.mask.clone())?)
     }
 
-    fn given_medium(&self, args: &MediumArgs) -> Result<Medium<2>, Failure> {
+    fn given_medium(&self, args: &MediumArgs) -> Result<Medium<D>, Failure> {
         let file = args.medium_file.as_deref();
         let Some(file) = file else {
             return Err(Failure::usage("`--medium file` needs --medium-file"));
         };
-        let field = read_field(file, self.args.spacing)?;
+        let field = read_field(file, self.image.shape().spacing())?;
         check_size(Some(file), field.shape(), self.image.shape())?;
         medium::given(field, form(args, Form::Pointwise))
             .map_err(|error| Failure::bad_input(format!("{}: {error}", file.display())))
     }
 
     /// The grey values that eq. (6) compares with.
-    fn references(&self, args: &MediumArgs, sources: &[[f64; 2]]) -> Result<Vec<f64>, Failure> {
+    fn references(&self, args: &MediumArgs, sources: &[[f64; D]]) -> Result<Vec<f64>, Failure> {
         match args.reference {
             Some(reference) => Ok(vec![reference]),
             None if sources.is_empty() => Err(Failure::usage(
@@ -145,18 +177,38 @@ fn form(args: &MediumArgs, usual: Form) -> Form {
     }
 }
 
+/// As many numbers as the input has axes.
+fn coordinates<const D: usize>(option: &str, given: &Numbers) -> Result<[f64; D], Failure> {
+    given.0.as_slice().try_into().map_err(|_| {
+        let text: Vec<String> = given.0.iter().map(f64::to_string).collect();
+        let (numbers, needed) = (text.join(","), AXES[..D].join(","));
+        let input = if D == 2 { "picture" } else { "volume" };
+        Failure::usage(format!(
+            "--{option} {numbers}: has {} numbers, but the input is a {input} and needs {D}: \
+             {needed}",
+            text.len()
+        ))
+    })
+}
+
 /// Checks that a second file fits the picture.
-fn check_size(file: Option<&Path>, given: &Shape<2>, picture: &Shape<2>) -> Result<(), Failure> {
-    let (given, picture) = (given.size(), picture.size());
-    if given == picture {
+fn check_size<const D: usize>(
+    file: Option<&Path>,
+    given: &Shape<D>,
+    picture: &Shape<D>,
+) -> Result<(), Failure> {
+    if given.size() == picture.size() {
         return Ok(());
     }
     Err(Failure::bad_input(format!(
-        "{}: has {} x {} pixels but the picture has {} x {}",
+        "{}: has {} pixels but the picture has {}",
         file.map(|file| file.display().to_string()).unwrap_or_default(),
-        given[0],
-        given[1],
-        picture[0],
-        picture[1]
+        size_text(given.size()),
+        size_text(picture.size()),
     )))
+}
+
+/// A size in words: `5 x 4 x 3`.
+pub(crate) fn size_text(size: impl AsRef<[usize]>) -> String {
+    size.as_ref().iter().map(usize::to_string).collect::<Vec<_>>().join(" x ")
 }

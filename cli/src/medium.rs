@@ -2,14 +2,15 @@
 
 use crate::args::MediumCommandArgs;
 use crate::failure::Failure;
-use crate::input::Picture;
+use crate::input::{Input, Picture, size_text};
 use crate::output;
-use heatpath_io::{FieldFormat, FieldStyle, Overlay, write_field, write_overlay};
+use heatpath_io::{FieldFormat, FieldStyle, ImageFile, Overlay, write_field, write_overlay};
 use serde::Serialize;
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Report {
+    size: Vec<usize>,
     min: f64,
     max: f64,
     mean: f64,
@@ -17,7 +18,15 @@ struct Report {
 
 pub(crate) fn medium(args: &MediumCommandArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &FieldFormat::ENDINGS, &args.out)?;
-    let picture = Picture::read(&args.picture)?;
+    match Input::read(&args.picture, &[&args.sources.source])? {
+        Input::Picture(file) => medium_in::<2>(args, file),
+        Input::Volume(file) => medium_in::<3>(args, file),
+    }
+}
+
+fn medium_in<const D: usize>(args: &MediumCommandArgs, file: ImageFile) -> Result<(), Failure> {
+    output::check_dimension(args.output.as_deref(), &args.out, D)?;
+    let picture = Picture::<D>::new(&args.picture, file)?;
     let sources = picture.optional_sources(&args.sources)?;
     let field = picture.medium(&args.medium, &sources)?.speed_sq_field();
     if let Some(output) = &args.output {
@@ -30,6 +39,7 @@ pub(crate) fn medium(args: &MediumCommandArgs) -> Result<(), Failure> {
     }
     let values = field.values();
     let report = Report {
+        size: field.shape().size().to_vec(),
         min: values.iter().copied().fold(f64::INFINITY, f64::min),
         max: values.iter().copied().fold(0.0, f64::max),
         mean: values.iter().sum::<f64>() / values.len() as f64,
@@ -37,7 +47,11 @@ pub(crate) fn medium(args: &MediumCommandArgs) -> Result<(), Failure> {
     if args.out.json {
         output::print_json(&report)?;
     }
-    let Report { min, max, mean } = report;
-    output::tell(&args.out, &format!("k D from {min:.6} to {max:.6}, mean {mean:.6}"));
+    let Report { size, min, max, mean } = report;
+    let size = size_text(size);
+    output::tell(
+        &args.out,
+        &format!("{size} cells: k D from {min:.6} to {max:.6}, mean {mean:.6}"),
+    );
     Ok(())
 }

@@ -52,3 +52,18 @@ pub(crate) fn check(
     }
     Ok(())
 }
+
+/// Checks, once the input is known, that the results can have `dimension` axes.
+pub(crate) fn check_dimension(
+    output: Option<&Path>,
+    out: &OutputArgs,
+    dimension: usize,
+) -> Result<(), Failure> {
+    if let Some(output) = output {
+        heatpath_io::check_dimension(output, out.format.as_deref(), dimension)?;
+    }
+    if let Some(overlay) = &out.overlay {
+        heatpath_io::check_dimension(overlay, None, dimension)?;
+    }
+    Ok(())
+}

@@ -3,15 +3,24 @@
 use crate::args::PathArgs;
 use crate::failure::Failure;
 use crate::heat::flow;
-use crate::input::Picture;
+use crate::input::{Input, Picture};
 use crate::output;
 use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
 use heatpath_io::curves::ending_name;
-use heatpath_io::{Curves, Overlay, curves_json, write_curves, write_overlay};
+use heatpath_io::{Curves, ImageFile, Overlay, curves_json, write_curves, write_overlay};
 
 pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
-    let picture = Picture::read(&args.picture)?;
+    let given = &args.sources.points;
+    match Input::read(&args.picture, &[&given.source, &args.end])? {
+        Input::Picture(file) => path_in::<2>(args, file),
+        Input::Volume(file) => path_in::<3>(args, file),
+    }
+}
+
+fn path_in<const D: usize>(args: &PathArgs, file: ImageFile) -> Result<(), Failure> {
+    output::check_dimension(args.output.as_deref(), &args.out, D)?;
+    let picture = Picture::<D>::new(&args.picture, file)?;
     let given = &args.sources.points;
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let ends = picture.points("end", &args.end, args.ends.as_deref())?;
@@ -43,20 +52,20 @@ pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
 }
 
 /// One path in words.
-fn line(number: usize, path: &Path<2>) -> String {
-    let [x, y] = path.points[0];
+fn line<const D: usize>(number: usize, path: &Path<D>) -> String {
+    let end = path.points[0].map(|coordinate| coordinate.to_string()).join(",");
     match path.ending {
         Ending::Source(source) => format!(
-            "path {number} from {x},{y} to source {source}: length {:.2} pixels, {:.6} physical, \
+            "path {number} from {end} to source {source}: length {:.2} pixels, {:.6} physical, \
              distance {:.6}",
             path.length, path.physical_length, path.distance
         ),
-        ending => format!("path {number} from {x},{y}: {}", ending_name(ending)),
+        ending => format!("path {number} from {end}: {}", ending_name(ending)),
     }
 }
 
 /// Paths that ended nowhere are written with the others, but they are no answer.
-fn complain_of_missing(paths: &[Path<2>]) -> Result<(), Failure> {
+fn complain_of_missing<const D: usize>(paths: &[Path<D>]) -> Result<(), Failure> {
     let missing: Vec<(usize, Ending)> = paths
         .iter()
         .enumerate()

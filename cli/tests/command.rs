@@ -1,84 +1,18 @@
 //! The binary, run as a user runs it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+mod common;
+
+use common::Bench;
 use image::{GrayImage, Luma};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-use tempfile::TempDir;
-
-/// A folder with a picture of a bright curve, `curve.png`, and the command run in it.
-struct Bench {
-    folder: TempDir,
-}
-
-impl Bench {
-    fn new() -> Self {
-        let folder = TempDir::new().unwrap();
-        let curve = |x: f64| 40.0 + 15.0 * (x / 12.0).sin();
-        GrayImage::from_fn(100, 80, |x, y| {
-            Luma([if (f64::from(y) - curve(f64::from(x))).abs() < 3.0 { 220 } else { 60 }])
-        })
-        .save(folder.path().join("curve.png"))
-        .unwrap();
-        Self { folder }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn run(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_heatpath"))
-            .current_dir(self.folder.path())
-            .args(arguments.split_whitespace())
-            .output()
-            .unwrap()
-    }
-
-    /// Runs what must succeed; returns standard output.
-    fn ok(&self, arguments: &str) -> String {
-        let output = self.run(arguments);
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.success(), "heatpath {arguments}: {error}");
-        String::from_utf8(output.stdout).unwrap()
-    }
-
-    fn json(&self, arguments: &str) -> Value {
-        serde_json::from_str(&self.ok(arguments)).unwrap()
-    }
-
-    /// Runs what must fail with one line on standard error that contains all of `words`, and
-    /// leaves no file behind.
-    fn fails(&self, arguments: &str, code: i32, words: &[&str]) {
-        let before = self.files();
-        let output = self.run(arguments);
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "heatpath {arguments}: {error}");
-        assert_eq!(error.trim_end().lines().count(), 1, "heatpath {arguments}: {error}");
-        for word in words {
-            assert!(error.contains(word), "heatpath {arguments}: no {word:?} in {error}");
-        }
-        assert_eq!(self.files(), before, "heatpath {arguments} left something behind");
-    }
-
-    fn files(&self) -> Vec<PathBuf> {
-        let mut files: Vec<_> =
-            fs::read_dir(self.folder.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
-        files.sort();
-        files
-    }
-
-    fn npy(&self, name: &str) -> (Vec<u64>, Vec<f64>) {
-        let file = npyz::NpyFile::new(fs::File::open(self.path(name)).unwrap()).unwrap();
-        (file.shape().to_vec(), file.into_vec().unwrap())
-    }
-}
+use std::path::Path;
+use std::process::Command;
 
 #[test]
 fn distance_writes_every_format() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let report = bench.json("distance curve.png --source 10,47 -o d.npy --overlay o.png --json");
     let (shape, values) = bench.npy("d.npy");
     assert_eq!(shape, [80, 100], "rows first");
@@ -111,7 +45,7 @@ fn distance_writes_every_format() {
 
 #[test]
 fn what_heat_has_not_reached_is_infinite() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let report = bench.json("distance curve.png --source 10,40 --iterations 5 -o d.npy --json");
     let (_, values) = bench.npy("d.npy");
     let reached = values.iter().filter(|v| v.is_finite()).count();
@@ -122,7 +56,7 @@ fn what_heat_has_not_reached_is_infinite() {
 
 #[test]
 fn paths_end_at_the_source_in_every_medium() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     for medium in ["uniform", "conductivity", "perona-malik", "combined", "edges"] {
         let curves = bench.json(&format!(
             "path curve.png --source 10,51.2 --end 90,55 --end 50.5,25.25 --end=0,79 --end -0.4,0 \
@@ -148,7 +82,7 @@ fn paths_end_at_the_source_in_every_medium() {
 
 #[test]
 fn a_path_follows_the_bright_curve() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let curves = bench.json("path curve.png --source 10,51 --end 90,54 --power 6 --json");
     let points = curves["paths"][0]["points"].as_array().unwrap();
     for point in points {
@@ -160,7 +94,7 @@ fn a_path_follows_the_bright_curve() {
 
 #[test]
 fn curves_as_csv_and_svg_and_points_from_files() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     fs::write(bench.path("ends.csv"), "x,y,name\n90,54,a\n50,40,b\n").unwrap();
     fs::write(bench.path("sources.json"), "[[10, 51], [60, 30]]").unwrap();
     bench.ok("path curve.png --sources sources.json --ends ends.csv --end 1,1 -o p.csv");
@@ -174,7 +108,7 @@ fn curves_as_csv_and_svg_and_points_from_files() {
 
 #[test]
 fn spacing_gives_physical_lengths_and_points() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let plain = bench.json("path curve.png --medium uniform --source 10,40 --end 40,20 --json");
     let arguments = "path curve.png --medium uniform --spacing 0.5,0.5 --physical \
                      --source 5,20 --end 20,10 --json";
@@ -189,7 +123,7 @@ fn spacing_gives_physical_lengths_and_points() {
 
 #[test]
 fn medium_shows_what_heat_sees() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let report = bench.json("medium curve.png --source 10,51 -o k.npy --json");
     let (_, values) = bench.npy("k.npy");
     let difference = (220.0 - 60.0) / 255.0_f64;
@@ -203,17 +137,9 @@ fn medium_shows_what_heat_sees() {
 
 #[test]
 fn a_given_field_is_the_squared_speed() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let write = |name: &str, value: f64| {
-        use npyz::WriterBuilder;
-        let mut writer = npyz::WriteOptions::new()
-            .default_dtype()
-            .shape(&[80, 100])
-            .writer(fs::File::create(bench.path(name)).unwrap())
-            .begin_nd()
-            .unwrap();
-        writer.extend((0..8000).map(|i| if i == 4321 { value } else { 0.25 })).unwrap();
-        writer.finish().unwrap();
+        bench.write_npy(name, &[80, 100], |i| if i == 4321 { value } else { 0.25 });
     };
     write("quarter.npy", 0.25);
     let arguments = "distance curve.png --medium file --medium-file quarter.npy --source 50,40 \
@@ -233,7 +159,7 @@ fn a_given_field_is_the_squared_speed() {
 
 #[test]
 fn walls_stop_paths() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let wall = |gap: bool| {
         GrayImage::from_fn(100, 80, |x, y| Luma([if x == 50 && !(gap && y == 5) { 0 } else { 1 }]))
     };
@@ -265,7 +191,7 @@ fn walls_stop_paths() {
 
 #[test]
 fn bad_input_is_told_in_one_line() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let mask = GrayImage::from_fn(100, 80, |x, _| Luma([u8::from(x < 50)]));
     mask.save(bench.path("mask.png")).unwrap();
     GrayImage::new(3, 3).save(bench.path("small.png")).unwrap();
@@ -314,7 +240,7 @@ fn bad_input_is_told_in_one_line() {
 
 #[test]
 fn wrong_usage_has_its_own_exit_code() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     for arguments in [
         "",
         "distance",
@@ -334,7 +260,7 @@ fn wrong_usage_has_its_own_exit_code() {
 
 #[test]
 fn info_and_completions() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let info = bench.json("info curve.png --json");
     assert_eq!(info["format"], "png");
     assert_eq!(info["size"], serde_json::json!([100, 80]));
@@ -349,7 +275,7 @@ fn info_and_completions() {
 
 #[test]
 fn quiet_is_quiet_and_json_is_alone() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let run = |flags: &str| {
         bench.run(&format!("distance curve.png --source 5,5 -o d.npy --force {flags}"))
     };
@@ -364,7 +290,7 @@ fn quiet_is_quiet_and_json_is_alone() {
 
 #[test]
 fn threads_change_nothing() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     for threads in [1, 2, 5] {
         bench.ok(&format!("distance curve.png --source 5,5 --threads {threads} -o d{threads}.npy"));
     }
@@ -376,9 +302,9 @@ fn threads_change_nothing() {
 #[cfg(unix)]
 #[test]
 fn an_interruption_leaves_no_file() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let mut child = Command::new(env!("CARGO_BIN_EXE_heatpath"))
-        .current_dir(bench.folder.path())
+        .current_dir(bench.path("."))
         .stderr(std::process::Stdio::null())
         .args("distance curve.png --source 5,5 --iterations 2000000 -o d.npy".split(' '))
         .spawn()
@@ -393,7 +319,7 @@ fn an_interruption_leaves_no_file() {
 /// The main job of the README, on the picture that ships with the project.
 #[test]
 fn the_retina_of_the_readme() {
-    let bench = Bench::new();
+    let bench = Bench::with_picture();
     let retina = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/data/retina.jpg");
     let info = bench.json(&format!("info {} --json", retina.display()));
     assert_eq!(info["size"], serde_json::json!([1411, 1411]));

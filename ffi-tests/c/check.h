@@ -36,7 +36,7 @@ static void expect(int line, const char *call, hp_status got, hp_status wanted, 
 #define CHECK(condition) ((condition) ? (void)0 : complain(__LINE__, #condition, "is not true"))
 
 /* A picture with a bright diagonal band. */
-static double grey(int x, int y)
+static inline double grey(int x, int y)
 {
     return 0.2 + 0.6 * exp(-0.05 * (x - y) * (x - y)) + 0.01 * ((7 * x + 3 * y) % 5);
 }
@@ -53,7 +53,7 @@ static hp_buffer buffer_of(void *data, uint32_t type)
     return buffer;
 }
 
-static hp_options defaults(void)
+static inline hp_options defaults(void)
 {
     hp_options options;
     EXPECT(HP_OK, "", hp_options_init(&options, sizeof options));

@@ -88,7 +88,9 @@ static void wrong_descriptions(void)
     REFUSE(type, 0, HP_INVALID_BUFFER, "type is 0");
     REFUSE(type, 99, HP_INVALID_BUFFER, "type is 99");
     REFUSE(dimension, 0, HP_INVALID_BUFFER, "dimension is 0");
-    REFUSE(dimension, 3, HP_UNSUPPORTED, "only 2-D images");
+    REFUSE(dimension, 1, HP_INVALID_BUFFER, "it must be 2 or 3");
+    REFUSE(dimension, 4, HP_INVALID_BUFFER, "dimension is 4");
+    REFUSE(dimension, UINT32_MAX, HP_INVALID_BUFFER, "dimension is 4294967295");
     REFUSE(reserved, 1, HP_INVALID_BUFFER, "reserved");
     REFUSE(size[0], 0, HP_INVALID_BUFFER, "axis 0");
     REFUSE(size[1], 0, HP_INVALID_BUFFER, "axis 1");
@@ -141,7 +143,7 @@ static void wrong_use_of_paths(void)
     EXPECT(HP_INVALID_ARGUMENT, "path 18446744073709551615", hp_paths_info(paths, UINT64_MAX, &info));
     EXPECT(HP_OK, "", hp_paths_info(paths, 0, &info));
     CHECK(info.source == 0 && info.point_count > 20 && info.length > 20 && info.distance > 20);
-    EXPECT(HP_INVALID_ARGUMENT, "xy is NULL", hp_paths_points(paths, 0, NULL, PIXELS));
+    EXPECT(HP_INVALID_ARGUMENT, "coordinates is NULL", hp_paths_points(paths, 0, NULL, PIXELS));
     EXPECT(HP_INVALID_ARGUMENT, "capacity is 3", hp_paths_points(paths, 0, xy, 3));
     EXPECT(HP_INVALID_ARGUMENT, "path 1", hp_paths_points(paths, 1, xy, PIXELS));
     EXPECT(HP_OK, "", hp_paths_points(paths, 0, xy, info.point_count));

@@ -94,7 +94,7 @@ static void wrong_options(void)
     REFUSE(HP_MEDIUM_EDGES, range_low, 5, HP_INVALID_ARGUMENT, "range");
     REFUSE(HP_MEDIUM_EDGES, range_high, INFINITY, HP_INVALID_ARGUMENT, "range");
     REFUSE(HP_MEDIUM_UNIFORM, step, -0.1, HP_INVALID_ARGUMENT, "step is -0.1");
-    REFUSE(HP_MEDIUM_UNIFORM, step, NAN, HP_INVALID_ARGUMENT, "step is NaN");
+    REFUSE(HP_MEDIUM_UNIFORM, step, INFINITY, HP_UNSTABLE_STEP, "largest stable step");
     REFUSE(HP_MEDIUM_UNIFORM, step, 0.3, HP_UNSTABLE_STEP, "largest stable step in this medium is 0.25");
     REFUSE(HP_MEDIUM_UNIFORM, time, -3, HP_INVALID_ARGUMENT, "time is -3");
     REFUSE(HP_MEDIUM_UNIFORM, time, INFINITY, HP_INVALID_ARGUMENT, "time is inf");

@@ -1,8 +1,8 @@
-//! The C program and the command give the same distances, to the last bit.
+//! The C programs and the command give the same distances, to the last bit.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
-use heatpath_ffi_tests::{Workshop, repository, run};
+use heatpath_ffi_tests::{Workshop, repository, run, text, valgrind};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -44,4 +44,60 @@ fn the_c_program_and_the_command_agree() {
     // What follows the header of an NPY file are the same doubles (little-endian, as here).
     assert_eq!(raw.len(), 120 * 90 * 8);
     assert!(npy.ends_with(&raw), "the distances differ");
+}
+
+/// Columns, rows, slices.
+const SIZE: [usize; 3] = [20, 17, 13];
+
+/// Writes the same bytes without a header and as an array of numpy.
+fn write_volume(raw: &Path, npy: &Path) {
+    let voxel = |i: usize| {
+        let [x, y, z] = [i % SIZE[0], i / SIZE[0] % SIZE[1], i / SIZE[0] / SIZE[1]];
+        let [x, y, z] = [x, y, z].map(|n| n as f64);
+        (128.0 + 100.0 * (0.3 * x + 0.2 * z).sin() * (0.25 * y - 0.1 * z).cos()) as u8
+    };
+    let voxels: Vec<u8> = (0..SIZE.iter().product()).map(voxel).collect();
+    let [columns, rows, slices] = SIZE;
+    let header = format!(
+        "{{'descr': '|u1', 'fortran_order': False, 'shape': ({slices}, {rows}, {columns}), }}\n"
+    );
+    let mut file = b"\x93NUMPY\x01\0".to_vec();
+    file.extend((header.len() as u16).to_le_bytes());
+    file.extend(header.as_bytes());
+    file.extend(&voxels);
+    std::fs::write(npy, file).unwrap();
+    std::fs::write(raw, voxels).unwrap();
+}
+
+#[test]
+fn the_c_program_and_the_command_agree_on_volumes() {
+    let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), "command_volume");
+    let program = workshop.build("volume.c");
+    let [volume, npy, csv] = ["v.npy", "d.npy", "p.csv"].map(|name| workshop.path(name));
+    let [raw, distances] = ["v.raw", "d.raw"].map(|name| workshop.path(name));
+    write_volume(&raw, &volume);
+    let heatpath = heatpath();
+    let command = |name: &str, output: &Path, more: &[&str]| {
+        let mut command = Command::new(&heatpath);
+        command.arg(name).arg(&volume).args(["--spacing", "1,1,2.5", "--source", "4,5.25,3"]);
+        run(command.args(["--quiet", "-o"]).arg(output).args(more));
+    };
+    command("distance", &npy, &[]);
+    command("path", &csv, &["--end", "19,16,12"]);
+    let csv = std::fs::read_to_string(csv).unwrap();
+    let points = csv.lines().skip(1).map(|line| {
+        let fields: Vec<&str> = line.split(',').collect();
+        [2, 3, 4].map(|i| fields[i].parse::<f64>().unwrap())
+    });
+    let points: Vec<[f64; 3]> = points.collect();
+    for mut program in [Command::new(&program), valgrind(&program)] {
+        program.arg(&raw).args(SIZE.map(|n| n.to_string())).args(["2.5", "4", "5.25", "3"]);
+        let printed = text(&run(program.arg(&distances)));
+        let (raw, npy) = (std::fs::read(&distances).unwrap(), std::fs::read(&npy).unwrap());
+        assert_eq!(raw.len(), SIZE.iter().product::<usize>() * 8);
+        assert!(npy.ends_with(&raw), "the distances differ");
+        let coordinates = printed.lines().flat_map(|line| line.split(','));
+        let coordinates: Vec<f64> = coordinates.map(|number| number.parse().unwrap()).collect();
+        assert_eq!(coordinates, points.as_flattened(), "the paths differ");
+    }
 }

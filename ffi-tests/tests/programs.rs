@@ -93,6 +93,11 @@ fn wrong_values_fail_in_words() {
 }
 
 #[test]
+fn wrong_volumes_fail_in_words() {
+    checks_itself("misuse_volumes.c");
+}
+
+#[test]
 fn layouts_of_memory_change_no_bit() {
     checks_itself("layouts.c");
 }

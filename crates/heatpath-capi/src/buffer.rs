@@ -25,9 +25,9 @@ pub const HP_F64: u32 = 8;
 /// The caller's pixels, described but never owned or kept: one number per pixel.
 ///
 /// Fill it with hp_buffer_init(), then set data, type, size, and where needed the rest. The pixel
-/// at column x and row y is found at `data + x * byte_stride[0] + y * byte_stride[1]`. With that
-/// rule a buffer can be a part of a larger picture, one channel of a coloured one, or upside down.
-/// Pixels need not be aligned.
+/// at column x, row y and slice z is found at `data + x * byte_stride[0] + y * byte_stride[1] + z *
+/// byte_stride[2]`. With that rule a buffer can be a part of a larger picture or volume, one channel
+/// of a coloured one, or upside down. Pixels need not be aligned, but must not overlap.
 ///
 /// Any number of threads may read the same buffer at once. Functions that take an input only
 /// read it, although data is not const.
@@ -39,16 +39,17 @@ pub struct hp_buffer {
     /// HP_U8, HP_I8, HP_U16, HP_I16, HP_U32, HP_I32, HP_F32 or HP_F64, in the byte order of the
     /// machine. There is no default.
     pub r#type: u32,
-    /// The number of axes: 2, the default. The third entry of the arrays below is then ignored.
+    /// The number of axes: 2, the default, for a picture; 3 for a volume. With 2 the third entry of
+    /// the arrays below is ignored.
     pub dimension: u32,
     /// 0.
     pub reserved: u32,
-    /// The first pixel: column 0, row 0.
+    /// The first pixel: column 0, row 0, slice 0.
     pub data: *mut c_void,
-    /// The pixels along each axis: columns, rows.
+    /// The pixels along each axis: columns, rows, slices.
     pub size: [u64; 3],
     /// The bytes from a pixel to the next one along each axis; negative if that one lies before it
-    /// in memory. 0, the default, means that pixels, or rows, follow each other without gaps.
+    /// in memory. 0, the default, means that pixels, rows or slices follow each other without gaps.
     pub byte_stride: [i64; 3],
     /// The physical distance of neighbouring pixels along each axis, positive; 1 by default.
     /// Only that of the image counts.

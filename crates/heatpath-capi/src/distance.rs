@@ -5,16 +5,18 @@ use crate::options::hp_options;
 use crate::pixels;
 use crate::problem::{Arguments, Problem};
 use crate::status::{Failure, HP_INVALID_BUFFER, guard, hp_status};
-use crate::view::View;
+use crate::view::{self, View};
 
 /// Computes the distance of every pixel from the nearest source, by letting heat flow.
 ///
-/// image: the picture that makes the medium, see hp_options; any type of pixel.
+/// image: the picture or volume that makes the medium, see hp_options; any type of pixel. Its
+/// dimension, 2 or 3, is that of all other arguments.
 ///
 /// mask: pixels that are 0 are walls, all others are open; of the same size. NULL for no walls.
 ///
-/// sources: source_count pairs x, y in pixel coordinates: 0, 0 is the centre of the first pixel, x
-/// runs to the right and y down; fractions are allowed.
+/// sources: source_count points of as many coordinates as the image has dimensions, x, y or
+/// x, y, z, in pixels: 0, 0, 0 is the centre of the first one, x runs along the row, y from row to
+/// row, z from slice to slice; fractions are allowed.
 ///
 /// options: NULL for the defaults.
 ///
@@ -37,17 +39,25 @@ pub unsafe extern "C" fn hp_distance(
 ) -> hp_status {
     let arguments = Arguments { image, mask, sources, source_count, options };
     // SAFETY: the caller's promise.
-    guard(|| unsafe { write_distance(&arguments, distance) })
+    guard(|| unsafe {
+        match view::dimension(image)? {
+            2 => write_distance::<2>(&arguments, distance),
+            _ => write_distance::<3>(&arguments, distance),
+        }
+    })
 }
 
 /// # Safety
 /// As [`hp_distance`].
-unsafe fn write_distance(arguments: &Arguments, distance: *const hp_buffer) -> Result<(), Failure> {
+unsafe fn write_distance<const D: usize>(
+    arguments: &Arguments,
+    distance: *const hp_buffer,
+) -> Result<(), Failure> {
     // SAFETY: the caller's promise.
-    let target = unsafe { View::read(distance, "distance")? };
+    let target = unsafe { View::<D>::read(distance, "distance")? };
     pixels::check_writable(&target)?;
     // SAFETY: the caller's promise.
-    let problem = unsafe { Problem::read(arguments)? };
+    let problem = unsafe { Problem::<D>::read(arguments)? };
     let (size, expected) = (target.shape.size(), problem.mask().shape().size());
     if size != expected {
         return Err(Failure::new(

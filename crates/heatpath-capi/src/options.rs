@@ -2,7 +2,6 @@
 
 use crate::status::{guard, hp_status};
 use crate::structs::{self, Versioned};
-use heatpath_core::grid::heat::Step;
 use std::ffi::{c_int, c_void};
 use std::mem::size_of;
 
@@ -84,13 +83,14 @@ pub struct hp_options {
     /// largest value of the type if pixels are HP_U8 or HP_U16, and else for that of the image.
     pub range_high: f64,
     /// The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-    /// longest side of the image, unless a time is given.
+    /// longest side of a picture and three times that of a volume, unless a time is given.
     pub iterations: u64,
     /// The time for which heat flows, in units of the smallest spacing squared; steps are shortened
     /// to fit. 0, the default, leaves it to the iterations.
     pub time: f64,
-    /// The time step, in units of the smallest spacing squared; 0.2 by default, and 0 takes a
-    /// safe fraction of the largest one that the medium allows.
+    /// The time step, in units of the smallest spacing squared. Not a number (NAN), the default,
+    /// stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
+    /// that the medium allows.
     pub step: f64,
     /// HP_NORMALIZED, the default, or HP_VARADHAN.
     pub estimator: u32,
@@ -122,7 +122,7 @@ unsafe impl Versioned for hp_options {
             range_high: f64::NAN,
             iterations: 0,
             time: 0.0,
-            step: Step::DEFAULT,
+            step: f64::NAN,
             estimator: HP_NORMALIZED,
             threads: 0,
             progress: None,

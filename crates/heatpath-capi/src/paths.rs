@@ -5,6 +5,7 @@ use crate::options::hp_options;
 use crate::problem::{Arguments, Problem, read_points};
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::{self, Versioned, check_pointer};
+use crate::view;
 use heatpath_core::grid::check_points;
 use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
 
@@ -25,7 +26,14 @@ const HEAT_SHARE: f64 = 0.9;
 /// Made by hp_paths_create() and freed by hp_paths_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
 pub struct hp_paths {
-    paths: Vec<Path<2>>,
+    paths: Vec<Traced>,
+}
+
+/// A path in any dimension.
+struct Traced {
+    info: hp_path_info,
+    /// Those of all points, one after the other.
+    coordinates: Vec<f64>,
 }
 
 /// What is known about a path besides its points. Set struct_size, then call hp_paths_info().
@@ -70,7 +78,7 @@ unsafe impl Versioned for hp_path_info {
 ///
 /// image, mask, sources, source_count and options are those of hp_distance().
 ///
-/// ends: end_count pairs x, y in pixel coordinates.
+/// ends: end_count points like the sources.
 ///
 /// paths: receives the paths, to be freed with hp_paths_free(), or NULL if anything but HP_OK is
 /// returned.
@@ -97,7 +105,12 @@ pub unsafe extern "C" fn hp_paths_create(
         // SAFETY: the caller promises room for a pointer; it is aligned.
         unsafe { paths.write(std::ptr::null_mut()) };
         // SAFETY: the caller's promise.
-        let traced = unsafe { trace(&arguments, &read_points(ends, end_count, "ends")?)? };
+        let traced = unsafe {
+            match view::dimension(image)? {
+                2 => trace::<2>(&arguments, &read_points(ends, end_count, "ends")?)?,
+                _ => trace::<3>(&arguments, &read_points(ends, end_count, "ends")?)?,
+            }
+        };
         // SAFETY: as above.
         unsafe { paths.write(Box::into_raw(Box::new(hp_paths { paths: traced }))) };
         Ok(())
@@ -106,9 +119,12 @@ pub unsafe extern "C" fn hp_paths_create(
 
 /// # Safety
 /// As [`hp_paths_create`].
-unsafe fn trace(arguments: &Arguments, ends: &[[f64; 2]]) -> Result<Vec<Path<2>>, Failure> {
+unsafe fn trace<const D: usize>(
+    arguments: &Arguments,
+    ends: &[[f64; D]],
+) -> Result<Vec<Traced>, Failure> {
     // SAFETY: the caller's promise.
-    let problem = unsafe { Problem::read(arguments)? };
+    let problem = unsafe { Problem::<D>::read(arguments)? };
     check_points("end", ends, problem.mask())?;
     let heat = problem.flow(HEAT_SHARE)?;
     let distances = problem.distances(&heat);
@@ -117,7 +133,7 @@ unsafe fn trace(arguments: &Arguments, ends: &[[f64; 2]]) -> Result<Vec<Path<2>>
     for (number, &end) in ends.iter().enumerate() {
         let traced = number as f64 / ends.len() as f64;
         problem.progress().check(HEAT_SHARE + (1.0 - HEAT_SHARE) * traced)?;
-        paths.push(descent.path(end, &distances, PathOptions::default())?);
+        paths.push(Traced::new(&descent.path(end, &distances, PathOptions::default())?));
     }
     problem.progress().check(1.0)?;
     Ok(paths)
@@ -168,60 +184,64 @@ pub unsafe extern "C" fn hp_paths_info(
         // SAFETY: the caller's promise.
         let path = unsafe { one_of(paths, index)? };
         // SAFETY: the caller's promise.
-        unsafe { structs::answer(info, &describe(path), "info") }
+        unsafe { structs::answer(info, &path.info, "info") }
     })
 }
 
-fn describe(path: &Path<2>) -> hp_path_info {
-    let (ending, source) = match path.ending {
-        Ending::Source(number) => (HP_ENDED_SOURCE, number as i64),
-        Ending::Unreachable => (HP_ENDED_UNREACHABLE, -1),
-        Ending::NotReached => (HP_ENDED_NOT_REACHED, -1),
-        Ending::StepLimit => (HP_ENDED_STEP_LIMIT, -1),
-    };
-    hp_path_info {
-        ending,
-        source,
-        point_count: path.points.len() as u64,
-        length: path.length,
-        physical_length: path.physical_length,
-        distance: path.distance,
-        ..hp_path_info::defaults()
+impl Traced {
+    fn new<const D: usize>(path: &Path<D>) -> Self {
+        let (ending, source) = match path.ending {
+            Ending::Source(number) => (HP_ENDED_SOURCE, number as i64),
+            Ending::Unreachable => (HP_ENDED_UNREACHABLE, -1),
+            Ending::NotReached => (HP_ENDED_NOT_REACHED, -1),
+            Ending::StepLimit => (HP_ENDED_STEP_LIMIT, -1),
+        };
+        let info = hp_path_info {
+            ending,
+            source,
+            point_count: path.points.len() as u64,
+            length: path.length,
+            physical_length: path.physical_length,
+            distance: path.distance,
+            ..hp_path_info::defaults()
+        };
+        Self { info, coordinates: path.points.as_flattened().to_vec() }
     }
 }
 
-/// Copies the points of a path, pairs x, y in pixel coordinates, from the end point to the source.
+/// Copies the points of a path, in pixel coordinates, from the end point to the source.
 ///
-/// xy: receives twice as many doubles as hp_path_info.point_count says.
+/// coordinates: receives x, y of each point or, if the image was a volume, x, y, z: two or three
+/// times as many doubles as hp_path_info.point_count says.
 ///
-/// capacity: how many points xy has room for. If it is too small nothing is written.
+/// capacity: how many points there is room for. If it is too small nothing is written.
 ///
 /// # Safety
-/// `paths` is NULL or comes from hp_paths_create(); `xy` is NULL or has room for twice `capacity`
-/// doubles.
+/// `paths` is NULL or comes from hp_paths_create(); `coordinates` is NULL or has room for
+/// `capacity` points of two or, if the image was a volume, three doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_paths_points(
     paths: *const hp_paths,
     index: u64,
-    xy: *mut f64,
+    coordinates: *mut f64,
     capacity: u64,
 ) -> hp_status {
     guard(|| {
         // SAFETY: the caller's promise.
-        let points = unsafe { &one_of(paths, index)?.points };
-        if xy.is_null() {
-            return Err(Failure::argument("xy is NULL"));
+        let path = unsafe { one_of(paths, index)? };
+        if coordinates.is_null() {
+            return Err(Failure::argument("coordinates is NULL"));
         }
-        if (points.len() as u64) > capacity {
+        let count = path.info.point_count;
+        if count > capacity {
             return Err(Failure::argument(format!(
-                "capacity is {capacity}, but path {index} has {} points",
-                points.len()
+                "capacity is {capacity}, but path {index} has {count} points"
             )));
         }
-        // SAFETY: `xy` has room for these points, as the caller promises; bytes need no alignment.
+        // SAFETY: there is room for these points, as the caller promises; bytes need no alignment.
         unsafe {
-            let bytes = size_of_val(points.as_slice());
-            xy.cast::<u8>().copy_from_nonoverlapping(points.as_ptr().cast(), bytes);
+            let (from, bytes) = (&path.coordinates, size_of_val(path.coordinates.as_slice()));
+            coordinates.cast::<u8>().copy_from_nonoverlapping(from.as_ptr().cast(), bytes);
         }
         Ok(())
     })
@@ -237,7 +257,7 @@ unsafe fn borrow<'a>(paths: *const hp_paths) -> Result<&'a hp_paths, Failure> {
 
 /// # Safety
 /// As [`borrow`].
-unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Path<2>, Failure> {
+unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Traced, Failure> {
     // SAFETY: the caller's promise.
     let paths = unsafe { &borrow(paths)?.paths };
     let found = usize::try_from(index).ok().and_then(|index| paths.get(index));

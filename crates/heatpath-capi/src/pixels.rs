@@ -9,19 +9,19 @@ use std::mem::size_of;
 ///
 /// # Safety
 /// All pixels that the view describes can be read.
-pub(crate) unsafe fn read(view: &View) -> Result<Grid<f64, 2>, Failure> {
+pub(crate) unsafe fn read<const D: usize>(view: &View<D>) -> Result<Grid<f64, D>, Failure> {
     view.check_data()?;
     // SAFETY: the caller's promise, and the type that the view names.
     let values = unsafe {
         match view.sample {
-            Sample::U8 => read_as::<u8>(view),
-            Sample::I8 => read_as::<i8>(view),
-            Sample::U16 => read_as::<u16>(view),
-            Sample::I16 => read_as::<i16>(view),
-            Sample::U32 => read_as::<u32>(view),
-            Sample::I32 => read_as::<i32>(view),
-            Sample::F32 => read_as::<f32>(view),
-            Sample::F64 => read_as::<f64>(view),
+            Sample::U8 => read_as::<u8, D>(view),
+            Sample::I8 => read_as::<i8, D>(view),
+            Sample::U16 => read_as::<u16, D>(view),
+            Sample::I16 => read_as::<i16, D>(view),
+            Sample::U32 => read_as::<u32, D>(view),
+            Sample::I32 => read_as::<i32, D>(view),
+            Sample::F32 => read_as::<f32, D>(view),
+            Sample::F64 => read_as::<f64, D>(view),
         }
     };
     Grid::from_values(view.shape, values).map_err(|error| Failure::new(HP_PANIC, error.to_string()))
@@ -29,11 +29,11 @@ pub(crate) unsafe fn read(view: &View) -> Result<Grid<f64, 2>, Failure> {
 
 /// # Safety
 /// All pixels that the view describes can be read, and are of type `T`.
-unsafe fn read_as<T: Copy + Into<f64>>(view: &View) -> Vec<f64> {
-    let [columns, rows] = view.shape.size();
-    let mut values = Vec::with_capacity(columns * rows);
-    for y in 0..rows {
-        let row = row(view, y);
+unsafe fn read_as<T: Copy + Into<f64>, const D: usize>(view: &View<D>) -> Vec<f64> {
+    let columns = view.shape.size()[0];
+    let mut values = Vec::with_capacity(view.shape.cells());
+    for number in 0..view.shape.cells() / columns {
+        let row = row(view, number);
         if view.stride[0] == size_of::<T>() as isize {
             let row = row.cast::<T>();
             // SAFETY: a pixel of this row, as the caller promises; a load that needs no alignment.
@@ -48,7 +48,7 @@ unsafe fn read_as<T: Copy + Into<f64>>(view: &View) -> Vec<f64> {
 }
 
 /// Refuses a buffer that distances cannot be written to.
-pub(crate) fn check_writable(view: &View) -> Result<(), Failure> {
+pub(crate) fn check_writable<const D: usize>(view: &View<D>) -> Result<(), Failure> {
     view.check_data()?;
     if matches!(view.sample, Sample::F32 | Sample::F64) {
         return Ok(());
@@ -61,7 +61,7 @@ pub(crate) fn check_writable(view: &View) -> Result<(), Failure> {
 ///
 /// # Safety
 /// All pixels that the view describes can be written.
-pub(crate) unsafe fn write(view: &View, values: &[f64]) {
+pub(crate) unsafe fn write<const D: usize>(view: &View<D>, values: &[f64]) {
     // SAFETY: the caller's promise, and the type that the view names.
     unsafe {
         if view.sample == Sample::F32 {
@@ -74,9 +74,9 @@ pub(crate) unsafe fn write(view: &View, values: &[f64]) {
 
 /// # Safety
 /// All pixels that the view describes can be written, and are of type `T`.
-unsafe fn write_as<T>(view: &View, values: &[f64], convert: impl Fn(f64) -> T) {
-    for (y, values) in values.chunks_exact(view.shape.size()[0]).enumerate() {
-        let row = row(view, y);
+unsafe fn write_as<T, const D: usize>(view: &View<D>, values: &[f64], convert: impl Fn(f64) -> T) {
+    for (number, values) in values.chunks_exact(view.shape.size()[0]).enumerate() {
+        let row = row(view, number);
         for (x, &value) in values.iter().enumerate() {
             let pixel = row.wrapping_offset(x as isize * view.stride[0]).cast::<T>();
             // SAFETY: a pixel of this row, as the caller promises; a store that needs no alignment.
@@ -85,7 +85,9 @@ unsafe fn write_as<T>(view: &View, values: &[f64], convert: impl Fn(f64) -> T) {
     }
 }
 
-/// The first pixel of row `y`.
-fn row(view: &View, y: usize) -> *mut u8 {
-    view.data.wrapping_offset(y as isize * view.stride[1])
+/// The first pixel of a row, counted through all slices.
+fn row<const D: usize>(view: &View<D>, number: usize) -> *mut u8 {
+    let index = view.shape.index(number * view.shape.size()[0]);
+    let offset: isize = (1..D).map(|axis| index[axis] as isize * view.stride[axis]).sum();
+    view.data.wrapping_offset(offset)
 }

@@ -13,8 +13,8 @@ use heatpath_core::grid::heat::{Explicit, Heat};
 use heatpath_core::grid::medium::{self, Medium, MediumError};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources, fraction};
 
-/// What a computation needs at most, in bytes for each pixel.
-const BYTES_PER_PIXEL: usize = 160;
+/// What a computation needs at most, in bytes for each pixel and axis.
+const BYTES_PER_AXIS: usize = 80;
 
 /// The arguments that all computations begin with.
 pub(crate) struct Arguments {
@@ -26,13 +26,13 @@ pub(crate) struct Arguments {
 }
 
 /// A medium and the sources in it.
-pub(crate) struct Problem {
-    medium: Medium<2>,
-    sources: Sources<2>,
+pub(crate) struct Problem<const D: usize> {
+    medium: Medium<D>,
+    sources: Sources<D>,
     settings: Settings,
 }
 
-impl Problem {
+impl<const D: usize> Problem<D> {
     /// Reads and checks everything.
     ///
     /// # Safety
@@ -51,7 +51,7 @@ impl Problem {
         }
     }
 
-    pub(crate) fn mask(&self) -> &Mask<2> {
+    pub(crate) fn mask(&self) -> &Mask<D> {
         self.medium.mask()
     }
 
@@ -60,7 +60,7 @@ impl Problem {
     }
 
     /// Lets heat flow; `share` is its part of all the work, for the progress.
-    pub(crate) fn flow(&self, share: f64) -> Result<Heat<2>, Failure> {
+    pub(crate) fn flow(&self, share: f64) -> Result<Heat<D>, Failure> {
         let exec = match self.settings.threads {
             1 => Exec::single_threaded(),
             threads => Exec::new(threads)?,
@@ -75,7 +75,7 @@ impl Problem {
     }
 
     /// Reads distances from heat.
-    pub(crate) fn distances(&self, heat: &Heat<2>) -> DistanceMap<2> {
+    pub(crate) fn distances(&self, heat: &Heat<D>) -> DistanceMap<D> {
         match self.settings.estimator {
             Estimator::Normalized => normalized(heat),
             Estimator::Varadhan => varadhan(heat),
@@ -86,19 +86,19 @@ impl Problem {
 /// Copies `count` points of the caller.
 ///
 /// # Safety
-/// `points` is NULL or points to twice `count` readable doubles; they need not be aligned.
-pub(crate) unsafe fn read_points(
+/// `points` is NULL or points to `D` times `count` readable doubles; they need not be aligned.
+pub(crate) unsafe fn read_points<const D: usize>(
     points: *const f64,
     count: u64,
     name: &str,
-) -> Result<Vec<[f64; 2]>, Failure> {
+) -> Result<Vec<[f64; D]>, Failure> {
     if count == 0 {
         return Ok(Vec::new());
     }
     if points.is_null() {
         return Err(Failure::argument(format!("{name} is NULL but there are {count} of them")));
     }
-    let largest = isize::MAX as usize / size_of::<[f64; 2]>();
+    let largest = isize::MAX as usize / size_of::<[f64; D]>();
     let Some(count) = usize::try_from(count).ok().filter(|&count| count <= largest) else {
         return Err(Failure::argument(format!(
             "{name}: {count} points are more than memory holds"
@@ -108,7 +108,7 @@ pub(crate) unsafe fn read_points(
     copy.try_reserve_exact(count).map_err(|_| {
         Failure::new(HP_OUT_OF_MEMORY, format!("{name}: there is no memory for {count} points"))
     })?;
-    let points = points.cast::<[f64; 2]>();
+    let points = points.cast::<[f64; D]>();
     // SAFETY: the caller promises `count` points; loads that need no alignment.
     copy.extend((0..count).map(|i| unsafe { points.add(i).read_unaligned() }));
     Ok(copy)
@@ -116,25 +116,28 @@ pub(crate) unsafe fn read_points(
 
 /// Refuses images so large that the computation would run out of memory, which no library
 /// survives. Nothing is touched: the operating system only says whether it could be had.
-fn check_memory(shape: Shape<2>) -> Result<(), Failure> {
-    let bytes = shape.cells().checked_mul(BYTES_PER_PIXEL);
+fn check_memory<const D: usize>(shape: Shape<D>) -> Result<(), Failure> {
+    let bytes_per_pixel = BYTES_PER_AXIS * D;
+    let bytes = shape.cells().checked_mul(bytes_per_pixel);
     let enough = bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
     if enough {
         return Ok(());
     }
-    let [columns, rows] = shape.size();
+    let size = shape.size().map(|n| n.to_string()).join(" x ");
     Err(Failure::new(
         HP_OUT_OF_MEMORY,
         format!(
-            "image: {columns} x {rows} pixels need up to {BYTES_PER_PIXEL} bytes each, more \
-             memory than there is"
+            "image: {size} pixels need up to {bytes_per_pixel} bytes each, more memory than there is"
         ),
     ))
 }
 
 /// # Safety
 /// `mask` is NULL, misaligned, or points to a description of readable pixels.
-unsafe fn read_mask(mask: *const hp_buffer, shape: Shape<2>) -> Result<Mask<2>, Failure> {
+unsafe fn read_mask<const D: usize>(
+    mask: *const hp_buffer,
+    shape: Shape<D>,
+) -> Result<Mask<D>, Failure> {
     if mask.is_null() {
         return Ok(Mask::all_open(shape));
     }
@@ -154,11 +157,11 @@ unsafe fn read_mask(mask: *const hp_buffer, shape: Shape<2>) -> Result<Mask<2>, 
 
 /// # Safety
 /// The view's pixels can be read.
-unsafe fn make_medium(
-    image: &View,
-    sources: &Sources<2>,
+unsafe fn make_medium<const D: usize>(
+    image: &View<D>,
+    sources: &Sources<D>,
     settings: &Settings,
-) -> Result<Medium<2>, Failure> {
+) -> Result<Medium<D>, Failure> {
     // SAFETY: the caller's promise.
     let grey = || unsafe { read_grey(image, settings.range) };
     let medium = match settings.recipe {
@@ -185,7 +188,7 @@ unsafe fn make_medium(
 
 /// # Safety
 /// The view's pixels can be read.
-unsafe fn read_finite(image: &View) -> Result<Grid<f64, 2>, Failure> {
+unsafe fn read_finite<const D: usize>(image: &View<D>) -> Result<Grid<f64, D>, Failure> {
     // SAFETY: the caller's promise.
     let grid = unsafe { pixels::read(image)? };
     grid.check_finite().map_err(|error| Failure::from(error).of("image"))?;
@@ -196,7 +199,10 @@ unsafe fn read_finite(image: &View) -> Result<Grid<f64, 2>, Failure> {
 ///
 /// # Safety
 /// The view's pixels can be read.
-unsafe fn read_grey(image: &View, range: [Option<f64>; 2]) -> Result<Grid<f64, 2>, Failure> {
+unsafe fn read_grey<const D: usize>(
+    image: &View<D>,
+    range: [Option<f64>; 2],
+) -> Result<Grid<f64, D>, Failure> {
     // SAFETY: the caller's promise.
     let mut grid = unsafe { read_finite(image)? };
     let (values, white) = (grid.values_mut(), image.sample.white());

@@ -126,7 +126,7 @@ impl hp_options {
     fn heat(&self) -> Result<HeatOptions, Failure> {
         let iterations = usize::try_from(self.iterations).unwrap_or(usize::MAX);
         let duration = match (iterations, self.time) {
-            (0, 0.0) => Duration::TwiceLongestSide,
+            (0, 0.0) => Duration::Usual,
             (0, time) => Duration::Time(time),
             (iterations, 0.0) => Duration::Iterations(iterations),
             (iterations, time) => {
@@ -135,7 +135,11 @@ impl hp_options {
                 )));
             }
         };
-        let step = if self.step == 0.0 { Step::Auto } else { Step::Fixed(self.step) };
+        let step = match self.step {
+            0.0 => Step::Auto,
+            step if step.is_nan() => Step::Usual,
+            step => Step::Fixed(step),
+        };
         Ok(HeatOptions { duration, step, face_mean: FaceMean::default(), exposure: true })
     }
 }

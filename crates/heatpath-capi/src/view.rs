@@ -1,7 +1,7 @@
 //! The caller's description of pixels, checked.
 
 use crate::buffer::{HP_F32, HP_F64, HP_I8, HP_I16, HP_I32, HP_U8, HP_U16, HP_U32, hp_buffer};
-use crate::status::{Failure, HP_INVALID_BUFFER, HP_INVALID_IMAGE, HP_UNSUPPORTED};
+use crate::status::{Failure, HP_INVALID_BUFFER, HP_INVALID_IMAGE};
 use crate::structs;
 use heatpath_core::grid::Shape;
 
@@ -54,16 +54,35 @@ impl Sample {
 
 /// A buffer whose description makes sense.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+pub(crate) struct View<const D: usize> {
     pub(crate) name: &'static str,
     pub(crate) data: *mut u8,
     pub(crate) sample: Sample,
-    pub(crate) shape: Shape<2>,
+    pub(crate) shape: Shape<D>,
     /// In bytes.
-    pub(crate) stride: [isize; 2],
+    pub(crate) stride: [isize; D],
 }
 
-impl View {
+/// The dimension of the image, which that of everything else must be: 2 or 3.
+///
+/// # Safety
+/// `image` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
+pub(crate) unsafe fn dimension(image: *const hp_buffer) -> Result<u32, Failure> {
+    // SAFETY: the caller's promise.
+    let image = unsafe { structs::read(image, "image")? };
+    check_dimension(image.dimension).map_err(|failure| failure.of("image"))?;
+    Ok(image.dimension)
+}
+
+fn check_dimension(dimension: u32) -> Result<(), Failure> {
+    if matches!(dimension, 2 | 3) {
+        return Ok(());
+    }
+    let message = format!("dimension is {dimension}; it must be 2 or 3");
+    Err(Failure::new(HP_INVALID_BUFFER, message))
+}
+
+impl<const D: usize> View<D> {
     /// Reads and checks a description; `name` stands in messages.
     ///
     /// # Safety
@@ -79,12 +98,10 @@ impl View {
 
     fn new(buffer: &hp_buffer, name: &'static str) -> Result<Self, Failure> {
         let invalid = |message: String| Failure::new(HP_INVALID_BUFFER, message);
-        if buffer.dimension == 3 {
-            let message = "dimension is 3: this version of heatpath takes only 2-D images";
-            return Err(Failure::new(HP_UNSUPPORTED, message));
-        }
-        if buffer.dimension != 2 {
-            return Err(invalid(format!("dimension is {}; it must be 2", buffer.dimension)));
+        check_dimension(buffer.dimension)?;
+        if buffer.dimension as usize != D {
+            let dimension = buffer.dimension;
+            return Err(invalid(format!("dimension is {dimension}, but that of the image is {D}")));
         }
         if buffer.reserved != 0 {
             return Err(invalid(format!("reserved is {}; it must be 0", buffer.reserved)));
@@ -96,8 +113,10 @@ impl View {
             )));
         };
         // A number that no usize holds is refused as too large in any case.
-        let size = [0, 1].map(|axis| usize::try_from(buffer.size[axis]).unwrap_or(usize::MAX));
-        let shape = Shape::with_spacing(size, [buffer.spacing[0], buffer.spacing[1]])?;
+        let size =
+            std::array::from_fn(|axis| usize::try_from(buffer.size[axis]).unwrap_or(usize::MAX));
+        let spacing = std::array::from_fn(|axis| buffer.spacing[axis]);
+        let shape = Shape::with_spacing(size, spacing)?;
         let stride = strides(buffer, sample, size)?;
         let view = Self { name, data: buffer.data.cast(), sample, shape, stride };
         view.check_extent()?;
@@ -116,12 +135,13 @@ impl View {
     /// Refuses pixels that overlap, and those that would lie outside of all memory.
     fn check_extent(&self) -> Result<(), Failure> {
         let (size, stride) = (self.shape.size(), self.stride.map(isize::unsigned_abs));
-        let [near, far] = if stride[0] <= stride[1] { [0, 1] } else { [1, 0] };
+        let mut axes: [usize; D] = std::array::from_fn(|axis| axis);
+        axes.sort_by_key(|&axis| stride[axis]);
         let outside =
             || Failure::new(HP_INVALID_BUFFER, "the strides lead to pixels outside of all memory");
-        // === How many bytes the pixels of one line take, then those of all lines
+        // === How many bytes the pixels of one line take, those of all lines, those of all slices
         let mut extent = self.sample.bytes();
-        for axis in [near, far].into_iter().filter(|&axis| size[axis] > 1) {
+        for axis in axes.into_iter().filter(|&axis| size[axis] > 1) {
             if stride[axis] < extent {
                 return Err(Failure::new(
                     HP_INVALID_BUFFER,
@@ -146,30 +166,42 @@ impl View {
 
     /// How many bytes before the first pixel the lowest one lies.
     fn reach_below(&self) -> usize {
-        let negative = (0..2).filter(|&axis| self.stride[axis] < 0);
+        let negative = (0..D).filter(|&axis| self.stride[axis] < 0);
         negative.map(|axis| self.stride[axis].unsigned_abs() * (self.shape.size()[axis] - 1)).sum()
     }
 
     /// A failure at the pixel stored as number `position`.
     pub(crate) fn bad_pixel(&self, position: usize, value: f64) -> Failure {
-        let [x, y] = self.shape.index(position);
-        let message = format!("the value at [{x}, {y}] is {value}; it must be a number");
+        let index = self.shape.index(position);
+        let message = format!("the value at {index:?} is {value}; it must be a number");
         Failure::new(HP_INVALID_IMAGE, message).of(self.name)
     }
 }
 
 /// The strides in bytes, those left at zero worked out.
-fn strides(buffer: &hp_buffer, sample: Sample, size: [usize; 2]) -> Result<[isize; 2], Failure> {
+fn strides<const D: usize>(
+    buffer: &hp_buffer,
+    sample: Sample,
+    size: [usize; D],
+) -> Result<[isize; D], Failure> {
     let too_far = |axis: usize| {
         let message = format!("byte_stride[{axis}] is {}, too far", buffer.byte_stride[axis]);
         Failure::new(HP_INVALID_BUFFER, message)
     };
-    let given = |axis: usize| isize::try_from(buffer.byte_stride[axis]).map_err(|_| too_far(axis));
-    let x = if given(0)? == 0 { sample.bytes() as isize } else { given(0)? };
-    let row = x.checked_abs().and_then(|x| x.checked_mul(size[0] as isize));
-    let row = row.map(|row| row.max(sample.bytes() as isize));
-    let y = if given(1)? == 0 { row.ok_or_else(|| too_far(0))? } else { given(1)? };
-    Ok([x, y])
+    let mut strides = [0_isize; D];
+    for axis in 0..D {
+        let given = isize::try_from(buffer.byte_stride[axis]).map_err(|_| too_far(axis))?;
+        // What the axes before take up.
+        let packed = || -> Result<isize, Failure> {
+            (0..axis).try_fold(sample.bytes() as isize, |packed, near| {
+                let line = strides[near].checked_abs();
+                let line = line.and_then(|stride| stride.checked_mul(size[near] as isize));
+                Ok(packed.max(line.ok_or_else(|| too_far(near))?))
+            })
+        };
+        strides[axis] = if given == 0 { packed()? } else { given };
+    }
+    Ok(strides)
 }
 
 #[cfg(test)]
@@ -177,16 +209,17 @@ mod tests {
     use super::*;
     use crate::structs::Versioned;
 
-    fn buffer(size: [u64; 2], stride: [i64; 2]) -> hp_buffer {
+    fn buffer<const D: usize>(size: [u64; D], stride: [i64; D]) -> hp_buffer {
         let mut buffer = hp_buffer { r#type: HP_U16, ..hp_buffer::defaults() };
+        buffer.dimension = D as u32;
         buffer.data = std::ptr::without_provenance_mut(4096);
-        buffer.size[..2].copy_from_slice(&size);
-        buffer.byte_stride[..2].copy_from_slice(&stride);
+        buffer.size[..D].copy_from_slice(&size);
+        buffer.byte_stride[..D].copy_from_slice(&stride);
         buffer
     }
 
-    fn strides_of(size: [u64; 2], stride: [i64; 2]) -> Result<[isize; 2], String> {
-        let view = View::new(&buffer(size, stride), "image");
+    fn strides_of<const D: usize>(size: [u64; D], stride: [i64; D]) -> Result<[isize; D], String> {
+        let view = View::<D>::new(&buffer(size, stride), "image");
         view.map(|view| view.stride).map_err(|failure| failure.message)
     }
 
@@ -197,6 +230,36 @@ mod tests {
         assert_eq!(strides_of([5, 3], [-2, 0]), Ok([-2, 10]));
         assert_eq!(strides_of([5, 3], [0, -64]), Ok([2, -64]));
         assert_eq!(strides_of([5, 3], [6, 2]), Ok([6, 2]), "columns as rows");
+    }
+
+    #[test]
+    fn slices_left_at_zero_are_packed() {
+        let size = [5, 3, 4];
+        assert_eq!(strides_of(size, [0, 0, 0]), Ok([2, 10, 30]));
+        assert_eq!(strides_of(size, [0, 16, 0]), Ok([2, 16, 48]));
+        assert_eq!(strides_of(size, [0, 0, 64]), Ok([2, 10, 64]));
+        assert_eq!(strides_of(size, [0, -10, 0]), Ok([2, -10, 30]));
+        assert_eq!(strides_of(size, [6, 2, 0]), Ok([6, 2, 30]), "columns as rows");
+        assert_eq!(strides_of(size, [24, 8, 2]), Ok([24, 8, 2]), "slices next to each other");
+        assert_eq!(strides_of([5, 1, 4], [0, 1, 0]), Ok([2, 1, 10]), "a single row");
+    }
+
+    #[test]
+    fn wrong_slices_are_refused() {
+        let size = [5, 3, 4];
+        for stride in [[0, 0, 29], [0, 0, -29], [0, 0, 8], [0, 16, 40]] {
+            let message = strides_of(size, stride).unwrap_err();
+            assert!(message.contains("overlap"), "{stride:?}: {message}");
+        }
+        for far in [i64::MAX, i64::MIN, i64::MAX / 2, -4096] {
+            assert!(strides_of(size, [0, 0, far]).is_err(), "{far}");
+            assert!(strides_of(size, [0, far, 0]).is_err(), "{far}");
+        }
+        for size in [[0, 1, 1], [1, 0, 1], [1, 1, 0], [1 << 21, 1 << 21, 1 << 21], [u64::MAX; 3]] {
+            assert!(strides_of(size, [0, 0, 0]).is_err(), "{size:?}");
+        }
+        let message = View::<2>::new(&buffer(size, [0; 3]), "mask").unwrap_err().message;
+        assert_eq!(message, "dimension is 3, but that of the image is 2");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const MODULES: [&str; 6] = ["version", "status", "buffer", "options", "distance", "paths"];
 
 const TITLE: &str = "\
-/* heatpath: geodesic distances and paths on images by letting heat flow through them.
+/* heatpath: geodesic distances and paths on images and volumes by letting heat flow through them.
  *
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *

@@ -182,3 +182,32 @@ fn steps_above_the_stable_one_are_refused_with_both_numbers() {
     assert_eq!(with(Step::Auto, Duration::Time(0.0)), Err(HeatError::Time(0.0)));
     assert_eq!(with(Step::Auto, Duration::Time(1.1)), Ok(1.1 / 6.0));
 }
+
+/// Images step as in the paper; volumes take the same part of what is stable in them.
+#[test]
+fn the_usual_step_is_stable_in_images_and_volumes() {
+    fn step<const D: usize>(spacing: [f64; D]) -> f64 {
+        let medium = medium::uniform(Shape::with_spacing([9; D], spacing).unwrap());
+        Explicit::new(&medium, HeatOptions::default()).unwrap().step()
+    }
+    assert_eq!(step([1.0, 1.0]), 0.2);
+    assert_eq!(step([3.0, 2.0]), 0.2);
+    assert_eq!(step([1.0, 1.0, 1.0]), 0.8 / 6.0);
+    assert_eq!(step([0.4, 0.4, 2.5]), 0.8 / 6.0);
+}
+
+/// Heat moves one cell a step: by default it gets from corner to corner.
+#[test]
+fn the_usual_duration_crosses_images_and_volumes() {
+    fn reached<const D: usize>(size: [usize; D]) -> usize {
+        let shape = Shape::new(size).unwrap();
+        let medium = medium::uniform(shape);
+        let corner = Sources::new(&[[0.0; D]], medium.mask()).unwrap();
+        let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
+        assert_eq!(explicit.iterations(), D * shape.longest_side());
+        let heat = explicit.flow(&corner, &Exec::single_threaded()).unwrap();
+        heat.ln_temperature().values().iter().filter(|ln_u| ln_u.is_finite()).count()
+    }
+    assert_eq!(reached([12, 12]), 144);
+    assert_eq!(reached([12, 11, 12]), 12 * 11 * 12);
+}

@@ -1,6 +1,7 @@
 //! Curves to files: JSON, CSV and SVG.
 
-use crate::output::{known_format, write_atomically};
+use crate::output::{check_dimension, known_format, write_atomically};
+use crate::points::AXES;
 use crate::{WriteError, svg};
 use heatpath_core::grid::Shape;
 use heatpath_core::grid::path::{Ending, Path as Curve};
@@ -26,22 +27,24 @@ impl<const D: usize> Curves<D> {
 /// Writes curves in the given format, or else in the one that the ending of `path` stands for.
 ///
 /// - `.json`: as [`curves_json`], in one line;
-/// - `.csv`: one row a point with the columns `path,point,x,y,ended`, all counted from 0, with as
-///   many digits as are needed to read the same numbers back;
-/// - `.svg`: a drawing in pixel coordinates (the centre of the first pixel is at 0,0), as large as
-///   the picture of the given `shape`, to be laid over it.
+/// - `.csv`: one row a point with the columns `path,point,x,y,ended` (in volumes
+///   `path,point,x,y,z,ended`), all counted from 0, with as many digits as are needed to read the
+///   same numbers back;
+/// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at
+///   0,0), as large as the picture of the given `shape`, to be laid over it.
 ///
 /// # Errors
-/// The format is unknown, the folder is missing, the file exists and `overwrite` is not set, or the
-/// operating system refuses.
-pub fn write_curves(
+/// The format is unknown or for pictures only, the folder is missing, the file exists and
+/// `overwrite` is not set, or the operating system refuses.
+pub fn write_curves<const D: usize>(
     path: impl AsRef<Path>,
     format: Option<&str>,
     overwrite: bool,
-    curves: &Curves<2>,
-    shape: &Shape<2>,
+    curves: &Curves<D>,
+    shape: &Shape<D>,
 ) -> Result<(), WriteError> {
-    let format = known_format(path.as_ref(), format, &Curves::<2>::ENDINGS)?;
+    let format = known_format(path.as_ref(), format, &Curves::<D>::ENDINGS)?;
+    check_dimension(&path, Some(format), D)?;
     write_atomically(path, overwrite, |out| match format {
         "json" => write_json(out, curves),
         "csv" => write_csv(out, curves),
@@ -122,17 +125,18 @@ impl<'a> Entry<'a> {
     }
 }
 
-fn write_json(out: &mut dyn Write, curves: &Curves<2>) -> io::Result<()> {
+fn write_json<const D: usize>(out: &mut dyn Write, curves: &Curves<D>) -> io::Result<()> {
     serde_json::to_writer(&mut *out, &Document::new(curves))?;
     writeln!(out)
 }
 
-fn write_csv(out: &mut dyn Write, curves: &Curves<2>) -> io::Result<()> {
+fn write_csv<const D: usize>(out: &mut dyn Write, curves: &Curves<D>) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(["path", "point", "x", "y", "ended"])?;
+    let header = ["path", "point"].into_iter().chain(AXES[..D].iter().copied());
+    writer.write_record(header.chain(["ended"]))?;
     for (i, path) in curves.paths.iter().enumerate() {
-        for (j, [x, y]) in path.points.iter().enumerate() {
-            writer.serialize((i, j, x, y, ending_name(path.ending)))?;
+        for (j, point) in path.points.iter().enumerate() {
+            writer.serialize((i, j, point.as_slice(), ending_name(path.ending)))?;
         }
     }
     writer.flush()

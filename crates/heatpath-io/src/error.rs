@@ -6,6 +6,28 @@ use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
 
+/// A size in words: `5 x 4 pixels`, `5 x 4 x 3 voxels`.
+pub(crate) fn pixels<T: ToString>(size: &[T]) -> String {
+    let sides: Vec<String> = size.iter().map(T::to_string).collect();
+    format!("{} {}", sides.join(" x "), if size.len() > 2 { "voxels" } else { "pixels" })
+}
+
+/// An index in words: `x = 5, y = 4`.
+fn coordinates(index: &[usize]) -> String {
+    let named: Vec<String> =
+        ["x", "y", "z"].iter().zip(index).map(|(axis, i)| format!("{axis} = {i}")).collect();
+    named.join(", ")
+}
+
+/// What a file of that many axes would be.
+fn needed(dimension: usize) -> &'static str {
+    if dimension == 3 {
+        "a volume is needed: a TIFF of several grey pages or an NPY array (slices, rows, columns)"
+    } else {
+        "a picture is needed"
+    }
+}
+
 /// Why a file could not be read. Every message is one line and names the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -46,35 +68,34 @@ pub enum ReadError {
     },
     /// The header claims more pixels than are accepted.
     #[error(
-        "{}: {} x {} pixels are too large; at most {most} pixels are accepted",
-        path.display(), size[0], size[1]
+        "{}: {} are too large; at most {most} are accepted",
+        path.display(), pixels(size)
     )]
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// Columns and rows.
-        size: [u64; 2],
+        /// Columns, rows and, of a volume, slices.
+        size: Vec<u64>,
         /// The largest accepted number of pixels.
         most: u64,
     },
     /// The header claims more pixels than a file of this length can hold.
     #[error(
-        "{}: {} x {} pixels are too large for a file of {bytes} bytes: it is truncated or its \
-         header is wrong",
-        path.display(), size[0], size[1]
+        "{}: {} are too large for a file of {bytes} bytes: it is truncated or its header is wrong",
+        path.display(), pixels(size)
     )]
     Truncated {
         /// The file.
         path: PathBuf,
-        /// Columns and rows.
-        size: [u64; 2],
+        /// Columns, rows and, of a volume, slices.
+        size: Vec<u64>,
         /// The length of the file.
         bytes: u64,
     },
-    /// The array is not a picture.
+    /// The array is neither a picture nor a volume.
     #[error(
-        "{}: an array of shape {shape:?}; (rows, columns) and (rows, columns, 3 or 4) with at \
-         least one row and column are accepted",
+        "{}: an array of shape {shape:?}; (rows, columns), (rows, columns, 3 or 4) in colour and \
+         (slices, rows, columns), at least one of each, are accepted",
         path.display()
     )]
     Shape {
@@ -103,6 +124,16 @@ pub enum ReadError {
         /// The channels of the file.
         channels: usize,
     },
+    /// The file is a volume where a picture is needed, or the other way round.
+    #[error("{}: has {}; {}", path.display(), pixels(size), needed(*dimension))]
+    Dimension {
+        /// The file.
+        path: PathBuf,
+        /// The size of what is in it.
+        size: Vec<usize>,
+        /// The number of axes that is needed.
+        dimension: usize,
+    },
     /// The size or spacing does not make a grid.
     #[error("{}: {source}", path.display())]
     Grid {
@@ -120,14 +151,14 @@ pub enum ReadError {
         high: f64,
     },
     /// A pixel is infinite or not a number.
-    #[error("{}: the pixel at x = {x}, y = {y} is {value}; all must be finite", path.display())]
+    #[error(
+        "{}: the pixel at {} is {value}; all must be finite", path.display(), coordinates(index)
+    )]
     NotFinite {
         /// The file.
         path: PathBuf,
-        /// The pixel's column.
-        x: usize,
-        /// The pixel's row.
-        y: usize,
+        /// The pixel's column, row and, in a volume, slice.
+        index: Vec<usize>,
         /// The pixel's value.
         value: f64,
     },
@@ -182,6 +213,16 @@ pub enum WriteError {
         path: PathBuf,
         /// The accepted endings, ready to print.
         accepted: String,
+    },
+    /// The format holds pictures, but a volume was to be written.
+    #[error(
+        "{}: a volume cannot be drawn as a picture; write .npy or .tif for fields, .json or .csv \
+         for paths",
+        path.display()
+    )]
+    Volume {
+        /// The output.
+        path: PathBuf,
     },
     /// A layer of an overlay does not have the size of the picture below it.
     #[error(

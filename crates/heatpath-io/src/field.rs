@@ -2,11 +2,12 @@
 
 use crate::WriteError;
 use crate::legend::with_legend;
-use crate::output::{known_format, write_atomically};
+use crate::output::{check_dimension, known_format, write_atomically};
 use heatpath_core::grid::Grid;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use npyz::WriterBuilder;
+use std::any::Any;
 use std::io::{self, Cursor, Write};
 use std::path::Path;
 use tiff::encoder::{TiffEncoder, TiffKind, colortype};
@@ -21,11 +22,12 @@ const MOST_PIXELS: usize = 1 << 29;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FieldFormat {
-    /// An array for numpy: 64-bit floats, C order, shape (rows, columns); infinities are kept.
+    /// An array for numpy: 64-bit floats, C order, shape (rows, columns) or (slices, rows, columns);
+    /// infinities are kept.
     Npy,
-    /// A TIFF of 32-bit floats; infinities are kept.
+    /// A TIFF of 32-bit floats, a page a slice; infinities are kept.
     Tiff,
-    /// A colour-mapped picture with a colour bar, for eyes.
+    /// A colour-mapped picture with a colour bar, for eyes; not for volumes.
     Png,
 }
 
@@ -61,35 +63,42 @@ pub struct FieldStyle {
 /// one. Colours run from the smallest to the largest finite value; other cells are dark grey.
 ///
 /// # Errors
-/// The format is unknown, the folder is missing, the file exists and `overwrite` is not set, the
-/// field is too large for the format, or the operating system refuses.
-pub fn write_field(
+/// The format is unknown or for pictures only, the folder is missing, the file exists and
+/// `overwrite` is not set, the field is too large for the format, or the operating system refuses.
+pub fn write_field<const D: usize>(
     path: impl AsRef<Path>,
     format: Option<&str>,
     overwrite: bool,
-    field: &Grid<f64, 2>,
+    field: &Grid<f64, D>,
     style: &FieldStyle,
 ) -> Result<(), WriteError> {
-    let format = FieldFormat::new(&path, format)?;
-    write_atomically(path, overwrite, |out| match format {
-        FieldFormat::Npy => write_npy(out, field),
-        FieldFormat::Tiff => write_tiff(out, field),
-        FieldFormat::Png => {
+    let format_of_file = FieldFormat::new(&path, format)?;
+    check_dimension(&path, format, D)?;
+    write_atomically(&path, overwrite, |out| match (format_of_file, as_picture(field)) {
+        (FieldFormat::Npy, _) => write_npy(out, field),
+        (FieldFormat::Png, Some(field)) => {
             check_picture_size(field.shape().size())?;
             write_png(out, &with_legend(field, style.title.as_deref()))
         }
+        _ => write_tiff(out, field),
     })
 }
 
-fn write_npy(out: &mut dyn Write, field: &Grid<f64, 2>) -> io::Result<()> {
-    let [columns, rows] = field.shape().size().map(|n| n as u64);
-    let options = npyz::WriteOptions::<f64>::new().default_dtype().shape(&[rows, columns]);
+/// The grid itself if it is a picture.
+pub(crate) fn as_picture<const D: usize>(grid: &Grid<f64, D>) -> Option<&Grid<f64, 2>> {
+    (grid as &dyn Any).downcast_ref()
+}
+
+fn write_npy<const D: usize>(out: &mut dyn Write, field: &Grid<f64, D>) -> io::Result<()> {
+    let mut shape = field.shape().size().map(|n| n as u64);
+    shape.reverse();
+    let options = npyz::WriteOptions::<f64>::new().default_dtype().shape(&shape);
     let mut writer = options.writer(out).begin_nd()?;
     writer.extend(field.values().iter().copied())?;
     writer.finish()
 }
 
-fn write_tiff(out: &mut dyn Write, field: &Grid<f64, 2>) -> io::Result<()> {
+fn write_tiff<const D: usize>(out: &mut dyn Write, field: &Grid<f64, D>) -> io::Result<()> {
     let mut bytes = Cursor::new(Vec::new());
     if field.values().len() * size_of::<f32>() < BIG_TIFF {
         encode_tiff(TiffEncoder::new(&mut bytes).map_err(io::Error::other)?, field)?;
@@ -99,14 +108,20 @@ fn write_tiff(out: &mut dyn Write, field: &Grid<f64, 2>) -> io::Result<()> {
     out.write_all(bytes.get_ref())
 }
 
-fn encode_tiff<W: Write + io::Seek, K: TiffKind>(
+fn encode_tiff<W: Write + io::Seek, K: TiffKind, const D: usize>(
     mut encoder: TiffEncoder<W, K>,
-    field: &Grid<f64, 2>,
+    field: &Grid<f64, D>,
 ) -> io::Result<()> {
-    let [columns, rows] = field.shape().size().map(u32::try_from);
+    let size = field.shape().size();
+    let [columns, rows] = [size[0], size[1]].map(u32::try_from);
     let (columns, rows) = (columns.map_err(io::Error::other)?, rows.map_err(io::Error::other)?);
-    let values: Vec<f32> = field.values().iter().map(|&value| value as f32).collect();
-    encoder.write_image::<colortype::Gray32Float>(columns, rows, &values).map_err(io::Error::other)
+    for slice in field.values().chunks(size[0] * size[1]) {
+        let values: Vec<f32> = slice.iter().map(|&value| value as f32).collect();
+        encoder
+            .write_image::<colortype::Gray32Float>(columns, rows, &values)
+            .map_err(io::Error::other)?;
+    }
+    Ok(())
 }
 
 /// Writes a picture as PNG.

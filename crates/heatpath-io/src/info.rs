@@ -1,19 +1,18 @@
-//! What is in a picture file.
+//! What is in a file.
 
-use crate::decode::{Format, Raster, decode};
-use crate::picture::read_bytes;
-use crate::{ReadError, SampleType};
+use crate::decode::{Format, Raster};
+use crate::{ImageFile, ReadError, SampleType};
 use serde::Serialize;
 use std::path::Path;
 
-/// What is in a picture file.
+/// What is in a picture or a volume.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Info {
     /// The file's format, from its content.
     pub format: Format,
-    /// Columns and rows.
-    pub size: [usize; 2],
+    /// Columns, rows and, of a volume, slices.
+    pub size: Vec<usize>,
     /// The channels: 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha.
     pub channels: usize,
     /// The type of the samples.
@@ -24,27 +23,36 @@ pub struct Info {
     pub max: Option<f64>,
     /// How many values are infinite or not a number, alpha left out.
     pub not_finite: usize,
-    /// The pictures in the file; more than 1 only for TIFF, of which the first one is read.
+    /// The pictures in the file; more than 1 only for TIFF. They are the slices of a volume, or else
+    /// the first one is read.
     pub pages: usize,
 }
 
 /// Looks into a file: decodes it and reports what it holds.
 ///
 /// # Errors
-/// The file cannot be read or is no picture.
+/// As [`ImageFile::read`].
 pub fn info(path: impl AsRef<Path>) -> Result<Info, ReadError> {
-    info_from_bytes(&read_bytes(path.as_ref())?, path)
+    Ok(ImageFile::read(path)?.info())
 }
 
-/// [`info`] of a file whose content is `bytes`; `name` stands in messages.
-///
-/// # Errors
-/// As [`info`].
-pub fn info_from_bytes(bytes: &[u8], name: impl AsRef<Path>) -> Result<Info, ReadError> {
-    let raster = decode(bytes, name.as_ref())?;
-    let (min, max, not_finite) = range(&raster);
-    let Raster { format, size, channels, sample, pages, .. } = raster;
-    Ok(Info { format, size, channels, sample, min, max, not_finite, pages })
+impl ImageFile {
+    /// What the file holds.
+    #[must_use]
+    pub fn info(&self) -> Info {
+        let raster = &self.raster;
+        let (min, max, not_finite) = range(raster);
+        Info {
+            format: raster.format,
+            size: raster.size.clone(),
+            channels: raster.channels,
+            sample: raster.sample,
+            min,
+            max,
+            not_finite,
+            pages: raster.pages,
+        }
+    }
 }
 
 /// The smallest and the largest finite value and the number of others, without alpha.

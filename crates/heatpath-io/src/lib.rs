@@ -3,11 +3,15 @@
 //! | direction | what | formats |
 //! | --- | --- | --- |
 //! | in | pictures, fields, masks ([`read_picture`], [`read_field`], [`read_mask`]) | PNG, JPEG, TIFF, PNM, NPY |
+//! | in | the same of volumes | TIFF of several pages, NPY of three axes |
+//! | in | a picture or a volume, as the file says ([`ImageFile`]) | as these |
 //! | in | points ([`read_points`]) | CSV, JSON |
-//! | in | what a file holds ([`info`](fn@info)) | as pictures |
+//! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
 //! | out | fields ([`write_field`]) | NPY, TIFF, PNG |
 //! | out | curves ([`write_curves`]) | JSON, CSV, SVG |
 //! | out | a result on its picture ([`write_overlay`]) | PNG |
+//!
+//! PNG and SVG are for pictures only; all else is the same in two and three dimensions.
 //!
 //! Inputs are recognised by their content, outputs by the ending of their name. Inputs are not
 //! trusted: no size is believed before the file is long enough for it, and each error is one line
@@ -25,7 +29,7 @@
 //! write_field(&path, None, false, &ramp, &FieldStyle::default())?;
 //!
 //! assert_eq!(read_field(&path, [1.0, 1.0])?, ramp);
-//! assert_eq!(read_picture(&path, &PictureOptions::default())?[[1, 0]], 0.5);
+//! assert_eq!(read_picture::<2>(&path, &PictureOptions::default())?[[1, 0]], 0.5);
 //! assert_eq!(info(&path)?.sample.to_string(), "float64");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -50,12 +54,9 @@ pub use curves::{Curves, curves_json, write_curves};
 pub use decode::Format;
 pub use error::{ReadError, WriteError};
 pub use field::{FieldFormat, FieldStyle, write_field};
-pub use info::{Info, info, info_from_bytes};
-pub use output::{check_output, write_atomically};
+pub use info::{Info, info};
+pub use output::{check_dimension, check_output, write_atomically};
 pub use overlay::{Overlay, write_overlay};
-pub use picture::{
-    Channel, PictureOptions, read_field, read_field_from_bytes, read_mask, read_mask_from_bytes,
-    read_picture, read_picture_from_bytes,
-};
+pub use picture::{Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture};
 pub use points::{read_points, read_points_from_bytes};
 pub use sample::SampleType;

@@ -10,6 +10,9 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// The endings of formats for eyes.
+const PICTURES: [&str; 2] = ["png", "svg"];
+
 /// Checks, before a long computation, that an output can be written afterwards.
 ///
 /// `kinds` are the accepted endings without a dot, for example `["npy", "tif"]`; `format` is one of
@@ -32,6 +35,25 @@ pub fn check_output(
             .map(drop)
             .map_err(|source| io_error(path, source)),
     }
+}
+
+/// Checks that a format can hold what has `dimension` axes: pictures (PNG, SVG) hold two.
+///
+/// `format` is its ending without a dot, or `None` for the ending of `path`.
+///
+/// # Errors
+/// It cannot.
+pub fn check_dimension(
+    path: impl AsRef<Path>,
+    format: Option<&str>,
+    dimension: usize,
+) -> Result<(), WriteError> {
+    let path = path.as_ref();
+    let name = format.unwrap_or_else(|| ending(path));
+    if dimension == 2 || !PICTURES.iter().any(|picture| picture.eq_ignore_ascii_case(name)) {
+        return Ok(());
+    }
+    Err(WriteError::Volume { path: path.to_owned() })
 }
 
 /// Writes a file with `write` so that it appears complete or not at all.
@@ -66,12 +88,15 @@ pub(crate) fn known_format<'a>(
     format: Option<&str>,
     kinds: &[&'a str],
 ) -> Result<&'a str, WriteError> {
-    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-    let name = format.unwrap_or(ending);
+    let name = format.unwrap_or_else(|| ending(path));
     kinds.iter().copied().find(|kind| kind.eq_ignore_ascii_case(name)).ok_or_else(|| {
         let accepted: Vec<_> = kinds.iter().map(|kind| format!(".{kind}")).collect();
         WriteError::Ending { path: path.to_owned(), accepted: accepted.join(", ") }
     })
+}
+
+fn ending(path: &Path) -> &str {
+    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
 }
 
 /// What the name of an output stands for.

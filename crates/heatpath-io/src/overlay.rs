@@ -2,7 +2,7 @@
 
 use crate::WriteError;
 use crate::colour::{NOT_FINITE, colour_of, enlargement, finite_range};
-use crate::field::{check_picture_size, write_png};
+use crate::field::{as_picture, check_picture_size, write_png};
 use crate::output::{known_format, write_atomically};
 use heatpath_core::grid::Grid;
 use heatpath_core::grid::path::{Ending, Path as Curve};
@@ -29,15 +29,15 @@ const ORANGE: [u8; 4] = [255, 150, 0, 255];
 
 /// What is drawn on a picture.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Overlay<'a> {
+pub struct Overlay<'a, const D: usize> {
     /// A field, for example of distances, in half-transparent colours; its size must be the
     /// picture's. Cells that are not finite stay as they are.
-    pub field: Option<&'a Grid<f64, 2>>,
+    pub field: Option<&'a Grid<f64, D>>,
     /// Curves: cyan if they ended at a source, else dashed and orange. Their end points are white
     /// dots, the sources at which they ended red crosses.
-    pub paths: &'a [Curve<2>],
+    pub paths: &'a [Curve<D>],
     /// Further sources, drawn as red crosses too.
-    pub sources: &'a [[f64; 2]],
+    pub sources: &'a [[f64; D]],
 }
 
 /// Writes `picture` (values from 0, black, to 1, white) with `layers` drawn on it, as PNG.
@@ -45,40 +45,46 @@ pub struct Overlay<'a> {
 /// Each cell is one pixel; if the longest side is below 256, each is a square of several pixels.
 ///
 /// # Errors
-/// The ending is not `.png`, the sizes differ, the picture is too large, the folder is missing, the
-/// file exists and `overwrite` is not set, or the operating system refuses.
-pub fn write_overlay(
+/// The ending is not `.png`, the picture is a volume, the sizes differ, the picture is too large,
+/// the folder is missing, the file exists and `overwrite` is not set, or the operating system
+/// refuses.
+pub fn write_overlay<const D: usize>(
     path: impl AsRef<Path>,
     overwrite: bool,
-    picture: &Grid<f64, 2>,
-    layers: &Overlay<'_>,
+    picture: &Grid<f64, D>,
+    layers: &Overlay<'_, D>,
 ) -> Result<(), WriteError> {
     let path = path.as_ref();
     known_format(path, None, &["png"])?;
+    let Some(picture) = as_picture(picture) else {
+        return Err(WriteError::Volume { path: path.to_owned() });
+    };
+    let field = layers.field.and_then(as_picture);
     let size = picture.shape().size();
-    if let Some(field) = layers.field.map(|field| field.shape().size())
+    if let Some(field) = field.map(|field| field.shape().size())
         && field != size
     {
         return Err(WriteError::Mismatch { path: path.to_owned(), picture: size, field });
     }
-    write_atomically(path, overwrite, |out| write_png(out, &drawn(picture, layers)?))
+    write_atomically(path, overwrite, |out| {
+        write_png(out, &drawn(Canvas::new(picture, field)?, layers))
+    })
 }
 
-fn drawn(picture: &Grid<f64, 2>, layers: &Overlay<'_>) -> io::Result<RgbImage> {
-    let mut canvas = Canvas::new(picture, layers.field)?;
+fn drawn<const D: usize>(mut canvas: Canvas, layers: &Overlay<'_, D>) -> RgbImage {
     canvas.draw_paths(layers.paths);
     let ends = layers.paths.iter().filter_map(|path| path.points.first());
     ends.for_each(|&end| canvas.draw_end(end));
     for source in sources(layers) {
         canvas.draw_source(source);
     }
-    Ok(canvas.into_picture())
+    canvas.into_picture()
 }
 
 /// The sources, each once.
-fn sources(layers: &Overlay<'_>) -> Vec<[f64; 2]> {
+fn sources<const D: usize>(layers: &Overlay<'_, D>) -> Vec<[f64; D]> {
     let reached = layers.paths.iter().filter(|path| reached_source(path));
-    let mut all: Vec<[f64; 2]> = layers.sources.to_vec();
+    let mut all: Vec<[f64; D]> = layers.sources.to_vec();
     for &source in reached.filter_map(|path| path.points.last()) {
         if !all.contains(&source) {
             all.push(source);
@@ -87,11 +93,11 @@ fn sources(layers: &Overlay<'_>) -> Vec<[f64; 2]> {
     all
 }
 
-fn reached_source(path: &Curve<2>) -> bool {
+fn reached_source<const D: usize>(path: &Curve<D>) -> bool {
     matches!(path.ending, Ending::Source(_))
 }
 
-/// A picture to draw on.
+/// A picture to draw on; of points the first two coordinates count.
 struct Canvas {
     pixels: Pixmap,
     /// From pixel coordinates of the grid to those of the canvas, whose pixel centres are at .5.
@@ -122,7 +128,7 @@ impl Canvas {
     }
 
     /// All outlines first: where curves meet they run into one another.
-    fn draw_paths(&mut self, paths: &[Curve<2>]) {
+    fn draw_paths<const D: usize>(&mut self, paths: &[Curve<D>]) {
         for (widening, outline) in [(1.6, true), (0.0, false)] {
             for path in paths.iter().filter(|path| path.points.len() > 1) {
                 let colour = match reached_source(path) {
@@ -135,12 +141,13 @@ impl Canvas {
         }
     }
 
-    fn draw_path(&mut self, path: &Curve<2>, colour: [u8; 4], width: f32) {
+    fn draw_path<const D: usize>(&mut self, path: &Curve<D>, colour: [u8; 4], width: f32) {
         let mut builder = PathBuilder::new();
-        for (i, &[x, y]) in path.points.iter().enumerate() {
+        for (i, point) in path.points.iter().enumerate() {
+            let (x, y) = (point[0] as f32, point[1] as f32);
             match i {
-                0 => builder.move_to(x as f32, y as f32),
-                _ => builder.line_to(x as f32, y as f32),
+                0 => builder.move_to(x, y),
+                _ => builder.line_to(x, y),
             }
         }
         let mut stroke = self.stroke(width);
@@ -152,10 +159,11 @@ impl Canvas {
         self.draw_stroke(builder, colour, &stroke);
     }
 
-    fn draw_end(&mut self, [x, y]: [f64; 2]) {
+    fn draw_end<const D: usize>(&mut self, end: [f64; D]) {
+        let (x, y) = (end[0] as f32, end[1] as f32);
         let radius = (1.3 * self.line).max(3.0);
         for (radius, colour) in [(radius + 1.2, BLACK), (radius, WHITE)] {
-            let circle = PathBuilder::from_circle(x as f32, y as f32, radius / self.scale);
+            let circle = PathBuilder::from_circle(x, y, radius / self.scale);
             if let Some(circle) = circle {
                 let paint = paint(colour);
                 self.pixels.fill_path(&circle, &paint, FillRule::Winding, self.transform, None);
@@ -163,8 +171,9 @@ impl Canvas {
         }
     }
 
-    fn draw_source(&mut self, [x, y]: [f64; 2]) {
-        let (x, y, arm) = (x as f32, y as f32, (2.2 * self.line).max(4.5) / self.scale);
+    fn draw_source<const D: usize>(&mut self, source: [f64; D]) {
+        let (x, y) = (source[0] as f32, source[1] as f32);
+        let arm = (2.2 * self.line).max(4.5) / self.scale;
         for (width, colour) in [(self.line + 3.0, WHITE), (self.line + 0.6, RED)] {
             let mut builder = PathBuilder::new();
             for sign in [-1.0, 1.0] {

@@ -1,9 +1,9 @@
-//! Pictures, fields and masks from files.
+//! Pictures, volumes, fields and masks from files.
 
 use crate::ReadError;
 use crate::decode::{Raster, decode};
 use heatpath_core::grid::{Grid, Mask, Shape, fraction};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The parts of red, green and blue in the luma of Rec. 709.
 const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
@@ -24,7 +24,7 @@ pub enum Channel {
 
 /// How the samples of a file become grey values from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PictureOptions {
+pub struct PictureOptions<const D: usize> {
     /// Which grey value a colour picture gives; alpha is ignored. Default: luma.
     pub channel: Channel,
     /// The raw values that become 0 and 1, the lower one first; what lies outside is clamped.
@@ -33,105 +33,179 @@ pub struct PictureOptions {
     /// (for PNM to the largest value that the header announces), for all others from the smallest
     /// to the largest value of the picture. A constant picture becomes 0.
     pub range: Option<(f64, f64)>,
-    /// The physical distance between the centres of two neighbouring columns and of two
-    /// neighbouring rows, positive. Default: 1 and 1.
-    pub spacing: [f64; 2],
+    /// The physical distance between the centres of two neighbouring columns, of two neighbouring
+    /// rows and, in volumes, of two neighbouring slices, positive. Default: 1.
+    pub spacing: [f64; D],
 }
 
-impl Default for PictureOptions {
+impl<const D: usize> Default for PictureOptions<D> {
     fn default() -> Self {
-        Self { channel: Channel::default(), range: None, spacing: [1.0; 2] }
+        Self { channel: Channel::default(), range: None, spacing: [1.0; D] }
     }
 }
 
-/// Reads a picture as grey values from 0 to 1.
+/// A decoded file that says itself whether it is a picture or a volume.
+///
+/// Pictures are PNG, JPEG, TIFF, PNM and arrays of numpy of shape (rows, columns) or, in colour,
+/// (rows, columns, 3 or 4). Volumes are TIFF files of several grey pages of one size and type, and
+/// arrays of shape (slices, rows, columns).
+///
+/// ```
+/// use heatpath_core::grid::{Grid, Shape};
+/// use heatpath_io::{FieldStyle, ImageFile, write_field};
+///
+/// # let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("ramp.tif");
+/// let ramp = Grid::from_fn(Shape::new([5, 4, 3])?, |[x, y, z]| (x + y + z) as f64);
+/// write_field(&path, None, false, &ramp, &FieldStyle::default())?;
+///
+/// let file = ImageFile::read(&path)?;
+/// assert_eq!(file.dimensions(), [3]);
+/// assert_eq!(file.into_field([1.0; 3])?, ramp);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ImageFile {
+    pub(crate) path: PathBuf,
+    pub(crate) raster: Raster,
+}
+
+impl ImageFile {
+    /// Reads and decodes a file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is neither a picture nor a volume.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        Self::from_bytes(&read_bytes(path.as_ref())?, path)
+    }
+
+    /// [`read`](Self::read) of a file whose content is `bytes`; `name` stands in messages.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn from_bytes(bytes: &[u8], name: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = name.as_ref().to_owned();
+        Ok(Self { raster: decode(bytes, &path)?, path })
+    }
+
+    /// The dimensions in which the file can be read, the likelier one first: 2 for a picture, 3 for
+    /// a volume.
+    ///
+    /// Both for an array of three axes whose last one has 1, 3 or 4 entries: they can be colours or
+    /// columns.
+    #[must_use]
+    pub fn dimensions(&self) -> &'static [usize] {
+        self.raster.dimensions()
+    }
+
+    /// The values as greys from 0 to 1.
+    ///
+    /// # Errors
+    /// The file has another dimension, or values that are infinite or not a number; the range is
+    /// empty or not finite; the spacing is not positive and finite.
+    pub fn into_picture<const D: usize>(
+        self,
+        options: &PictureOptions<D>,
+    ) -> Result<Grid<f64, D>, ReadError> {
+        if let Some((low, high)) = options.range
+            && !(low.is_finite() && high.is_finite() && low < high)
+        {
+            return Err(ReadError::Range { low, high });
+        }
+        let file = self.in_dimension(D)?;
+        let mut picture = file.grid(grey(&file.raster, options.channel), options.spacing)?;
+        refuse(&picture, |value| !value.is_finite(), &file.path)?;
+        let natural = || natural_range(&file.raster, picture.values());
+        let (low, high) = options.range.unwrap_or_else(natural);
+        for value in picture.values_mut() {
+            *value = fraction(*value, low, high);
+        }
+        Ok(picture)
+    }
+
+    /// The raw values, one a pixel, unscaled. Those that are infinite or not a number are kept.
+    ///
+    /// # Errors
+    /// The file has another dimension or is in colour; the spacing is not positive and finite.
+    pub fn into_field<const D: usize>(self, spacing: [f64; D]) -> Result<Grid<f64, D>, ReadError> {
+        let file = self.in_dimension(D)?;
+        if file.raster.colours() > 1 {
+            return Err(ReadError::Colour { path: file.path, channels: file.raster.channels });
+        }
+        file.grid(grey(&file.raster, Channel::default()), spacing)
+    }
+
+    /// The mask: pixels that are zero (in a colour picture: black) are walls, all others are open.
+    /// Alpha is ignored. In bilevel PNM files ink is zero, that is wall.
+    ///
+    /// # Errors
+    /// The file has another dimension, or pixels that are not a number; the spacing is not positive
+    /// and finite.
+    pub fn into_mask<const D: usize>(self, spacing: [f64; D]) -> Result<Mask<D>, ReadError> {
+        let file = self.in_dimension(D)?;
+        let brightest = (0..file.raster.colours())
+            .map(|channel| plane(&file.raster, channel))
+            .reduce(|a, b| a.iter().zip(&b).map(|(a, b)| larger_magnitude(*a, *b)).collect());
+        let values = file.grid(brightest.unwrap_or_default(), spacing)?;
+        refuse(&values, f64::is_nan, &file.path)?;
+        Ok(Mask::new(values.map(|&value| value != 0.0)))
+    }
+
+    fn in_dimension(self, dimension: usize) -> Result<Self, ReadError> {
+        let (path, size) = (self.path, self.raster.size.clone());
+        match self.raster.in_dimension(dimension) {
+            Some(raster) => Ok(Self { path, raster }),
+            None => Err(ReadError::Dimension { path, size, dimension }),
+        }
+    }
+
+    fn grid<const D: usize>(
+        &self,
+        values: Vec<f64>,
+        spacing: [f64; D],
+    ) -> Result<Grid<f64, D>, ReadError> {
+        let size = std::array::from_fn(|axis| self.raster.size[axis]);
+        let shape = Shape::with_spacing(size, spacing)
+            .map_err(|source| ReadError::Grid { path: self.path.clone(), source })?;
+        Grid::from_values(shape, values).map_err(|error| ReadError::Decode {
+            path: self.path.clone(),
+            format: self.raster.format,
+            reason: error.to_string(),
+        })
+    }
+}
+
+/// Reads a picture or a volume as grey values from 0 to 1.
 ///
 /// # Errors
-/// The file cannot be read, is no picture, or has pixels that are infinite or not a number; the
-/// range is empty or not finite; the spacing is not positive and finite.
-pub fn read_picture(
+/// As [`ImageFile::read`] and [`ImageFile::into_picture`].
+pub fn read_picture<const D: usize>(
     path: impl AsRef<Path>,
-    options: &PictureOptions,
-) -> Result<Grid<f64, 2>, ReadError> {
-    read_picture_from_bytes(&read_bytes(path.as_ref())?, path, options)
-}
-
-/// [`read_picture`] of a file whose content is `bytes`; `name` stands in messages.
-///
-/// # Errors
-/// As [`read_picture`].
-pub fn read_picture_from_bytes(
-    bytes: &[u8],
-    name: impl AsRef<Path>,
-    options: &PictureOptions,
-) -> Result<Grid<f64, 2>, ReadError> {
-    let path = name.as_ref();
-    if let Some((low, high)) = options.range
-        && !(low.is_finite() && high.is_finite() && low < high)
-    {
-        return Err(ReadError::Range { low, high });
-    }
-    let raster = decode(bytes, path)?;
-    let mut picture = grid(&raster, grey(&raster, options.channel), options.spacing, path)?;
-    refuse(&picture, |value| !value.is_finite(), path)?;
-    let (low, high) = options.range.unwrap_or_else(|| natural_range(&raster, picture.values()));
-    for value in picture.values_mut() {
-        *value = fraction(*value, low, high);
-    }
-    Ok(picture)
+    options: &PictureOptions<D>,
+) -> Result<Grid<f64, D>, ReadError> {
+    ImageFile::read(path)?.into_picture(options)
 }
 
 /// Reads one raw value a pixel, unscaled. Values that are infinite or not a number are kept.
 ///
 /// # Errors
-/// The file cannot be read, is no picture, or is in colour; the spacing is not positive and finite.
-pub fn read_field(path: impl AsRef<Path>, spacing: [f64; 2]) -> Result<Grid<f64, 2>, ReadError> {
-    read_field_from_bytes(&read_bytes(path.as_ref())?, path, spacing)
-}
-
-/// [`read_field`] of a file whose content is `bytes`; `name` stands in messages.
-///
-/// # Errors
-/// As [`read_field`].
-pub fn read_field_from_bytes(
-    bytes: &[u8],
-    name: impl AsRef<Path>,
-    spacing: [f64; 2],
-) -> Result<Grid<f64, 2>, ReadError> {
-    let raster = decode(bytes, name.as_ref())?;
-    if raster.colours() > 1 {
-        let path = name.as_ref().to_owned();
-        return Err(ReadError::Colour { path, channels: raster.channels });
-    }
-    grid(&raster, grey(&raster, Channel::default()), spacing, name.as_ref())
+/// As [`ImageFile::read`] and [`ImageFile::into_field`].
+pub fn read_field<const D: usize>(
+    path: impl AsRef<Path>,
+    spacing: [f64; D],
+) -> Result<Grid<f64, D>, ReadError> {
+    ImageFile::read(path)?.into_field(spacing)
 }
 
 /// Reads a mask: pixels that are zero (in a colour picture: black) are walls, all others are open.
-/// Alpha is ignored. In bilevel PNM files ink is zero, that is wall.
 ///
 /// # Errors
-/// The file cannot be read, is no picture, or has pixels that are not a number; the spacing is not
-/// positive and finite.
-pub fn read_mask(path: impl AsRef<Path>, spacing: [f64; 2]) -> Result<Mask<2>, ReadError> {
-    read_mask_from_bytes(&read_bytes(path.as_ref())?, path, spacing)
-}
-
-/// [`read_mask`] of a file whose content is `bytes`; `name` stands in messages.
-///
-/// # Errors
-/// As [`read_mask`].
-pub fn read_mask_from_bytes(
-    bytes: &[u8],
-    name: impl AsRef<Path>,
-    spacing: [f64; 2],
-) -> Result<Mask<2>, ReadError> {
-    let raster = decode(bytes, name.as_ref())?;
-    let brightest = (0..raster.colours())
-        .map(|channel| plane(&raster, channel))
-        .reduce(|a, b| a.iter().zip(&b).map(|(a, b)| larger_magnitude(*a, *b)).collect());
-    let values = grid(&raster, brightest.unwrap_or_default(), spacing, name.as_ref())?;
-    refuse(&values, f64::is_nan, name.as_ref())?;
-    Ok(Mask::new(values.map(|&value| value != 0.0)))
+/// As [`ImageFile::read`] and [`ImageFile::into_mask`].
+pub fn read_mask<const D: usize>(
+    path: impl AsRef<Path>,
+    spacing: [f64; D],
+) -> Result<Mask<D>, ReadError> {
+    ImageFile::read(path)?.into_mask(spacing)
 }
 
 /// The file's bytes.
@@ -151,7 +225,7 @@ fn grey(raster: &Raster, channel: Channel) -> Vec<f64> {
         Channel::Green => plane(raster, 1),
         Channel::Blue => plane(raster, 2),
         Channel::Luma => {
-            let mut luma = vec![0.0; raster.size[0] * raster.size[1]];
+            let mut luma = vec![0.0; raster.samples.len() / raster.channels];
             for (channel, part) in LUMA.into_iter().enumerate() {
                 luma.iter_mut().zip(plane(raster, channel)).for_each(|(sum, v)| *sum += part * v);
             }
@@ -160,29 +234,19 @@ fn grey(raster: &Raster, channel: Channel) -> Vec<f64> {
     }
 }
 
-fn grid(
-    raster: &Raster,
-    values: Vec<f64>,
-    spacing: [f64; 2],
-    path: &Path,
-) -> Result<Grid<f64, 2>, ReadError> {
-    let shape = Shape::with_spacing(raster.size, spacing)
-        .map_err(|source| ReadError::Grid { path: path.to_owned(), source })?;
-    Grid::from_values(shape, values).map_err(|error| ReadError::Decode {
-        path: path.to_owned(),
-        format: raster.format,
-        reason: error.to_string(),
-    })
-}
-
 /// Returns the first value that is `bad` as an error.
-fn refuse(grid: &Grid<f64, 2>, bad: impl Fn(f64) -> bool, path: &Path) -> Result<(), ReadError> {
+fn refuse<const D: usize>(
+    grid: &Grid<f64, D>,
+    bad: impl Fn(f64) -> bool,
+    path: &Path,
+) -> Result<(), ReadError> {
     match grid.values().iter().position(|&value| bad(value)) {
         None => Ok(()),
-        Some(position) => {
-            let ([x, y], value) = (grid.shape().index(position), grid.values()[position]);
-            Err(ReadError::NotFinite { path: path.to_owned(), x, y, value })
-        }
+        Some(position) => Err(ReadError::NotFinite {
+            path: path.to_owned(),
+            index: grid.shape().index(position).to_vec(),
+            value: grid.values()[position],
+        }),
     }
 }
 

@@ -6,6 +6,9 @@ use csv::{ByteRecord, ReaderBuilder, Trim};
 use serde_json::Value;
 use std::path::Path;
 
+/// The names of the coordinates.
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// Why an entry is no point, and where it stands.
 type Trouble = (String, String);
 
@@ -14,12 +17,12 @@ type Trouble = (String, String);
 /// The content decides the format. Text that begins with a bracket or a brace is JSON:
 /// `[[x, y], ...]`, `[{"x": x, "y": y}, ...]` or either of these as `{"points": ...}`. All else is
 /// CSV: two columns x and y, or any columns under a header line that names `x` and `y`; lines that
-/// begin with `#` are comments.
+/// begin with `#` are comments. In volumes a third number, `z`, follows.
 ///
 /// # Errors
-/// The file cannot be read, holds no points, or an entry is not a pair of finite numbers; the
+/// The file cannot be read, holds no points, or an entry is not as many finite numbers; the
 /// message names its line (counted from 1) or its place in the JSON list (from 0).
-pub fn read_points(path: impl AsRef<Path>) -> Result<Vec<[f64; 2]>, ReadError> {
+pub fn read_points<const D: usize>(path: impl AsRef<Path>) -> Result<Vec<[f64; D]>, ReadError> {
     read_points_from_bytes(&read_bytes(path.as_ref())?, path)
 }
 
@@ -27,10 +30,10 @@ pub fn read_points(path: impl AsRef<Path>) -> Result<Vec<[f64; 2]>, ReadError> {
 ///
 /// # Errors
 /// As [`read_points`].
-pub fn read_points_from_bytes(
+pub fn read_points_from_bytes<const D: usize>(
     bytes: &[u8],
     name: impl AsRef<Path>,
-) -> Result<Vec<[f64; 2]>, ReadError> {
+) -> Result<Vec<[f64; D]>, ReadError> {
     // Some editors put a byte order mark first.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let points = match bytes.trim_ascii_start().first() {
@@ -46,7 +49,7 @@ pub fn read_points_from_bytes(
 
 // === JSON
 
-fn from_json(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Trouble> {
+fn from_json<const D: usize>(bytes: &[u8]) -> Result<Vec<[f64; D]>, Trouble> {
     let value: Value = serde_json::from_slice(bytes)
         .map_err(|error| (format!("line {}", error.line()), format!("not valid JSON: {error}")))?;
     let list = value.get("points").unwrap_or(&value).as_array().ok_or_else(|| {
@@ -55,28 +58,28 @@ fn from_json(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Trouble> {
     })?;
     list.iter()
         .enumerate()
-        .map(|(i, entry)| json_point(entry).ok_or_else(|| json_trouble(i, entry)))
+        .map(|(i, entry)| json_point(entry).ok_or_else(|| json_trouble::<D>(i, entry)))
         .collect()
 }
 
-fn json_point(entry: &Value) -> Option<[f64; 2]> {
-    match entry {
-        Value::Array(pair) => match pair.as_slice() {
-            [x, y] => Some([x.as_f64()?, y.as_f64()?]),
-            _ => None,
-        },
-        _ => Some([entry.get("x")?.as_f64()?, entry.get("y")?.as_f64()?]),
-    }
+fn json_point<const D: usize>(entry: &Value) -> Option<[f64; D]> {
+    let numbers: Option<Vec<f64>> = match entry {
+        Value::Array(numbers) => numbers.iter().map(Value::as_f64).collect(),
+        _ => AXES[..D].iter().map(|&axis| entry.get(axis)?.as_f64()).collect(),
+    };
+    numbers?.try_into().ok()
 }
 
-fn json_trouble(i: usize, entry: &Value) -> Trouble {
+fn json_trouble<const D: usize>(i: usize, entry: &Value) -> Trouble {
     let found = excerpt(&entry.to_string());
-    (format!("entry {i}"), format!("expected [x, y] or {{\"x\": x, \"y\": y}}, found {found}"))
+    let named: Vec<_> = AXES[..D].iter().map(|axis| format!("\"{axis}\": {axis}")).collect();
+    let (list, object) = (AXES[..D].join(", "), named.join(", "));
+    (format!("entry {i}"), format!("expected [{list}] or {{{object}}}, found {found}"))
 }
 
 // === CSV
 
-fn from_csv(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Trouble> {
+fn from_csv<const D: usize>(bytes: &[u8]) -> Result<Vec<[f64; D]>, Trouble> {
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -92,10 +95,11 @@ fn from_csv(bytes: &[u8]) -> Result<Vec<[f64; 2]>, Trouble> {
         let start = record.position().map_or(0, csv::Position::byte) as usize;
         let place = |reason| (format!("line {}", line_number(bytes, start)), reason);
         if columns.is_none() && is_header(&record) {
-            columns = Some(header(&record).map_err(place)?);
+            columns = Some(header::<D>(&record).map_err(place)?);
             continue;
         }
-        let columns = columns.get_or_insert(Columns { x: 0, y: 1, exact: true });
+        let columns =
+            columns.get_or_insert(Columns { of: std::array::from_fn(|axis| axis), exact: true });
         points.push(csv_point(&record, columns).map_err(place)?);
     }
     Ok(points)
@@ -111,10 +115,9 @@ fn line_number(bytes: &[u8], start: usize) -> usize {
     1 + before.iter().filter(|&&c| c == b'\n').count() + skipped
 }
 
-/// Where x and y stand.
-struct Columns {
-    x: usize,
-    y: usize,
+/// Where the coordinates stand.
+struct Columns<const D: usize> {
+    of: [usize; D],
     /// Whether there must be no other columns.
     exact: bool,
 }
@@ -124,29 +127,42 @@ fn is_header(record: &ByteRecord) -> bool {
     record.iter().all(|cell| number(cell).is_none())
 }
 
-fn header(record: &ByteRecord) -> Result<Columns, String> {
-    let column = |name: &[u8]| record.iter().position(|cell| cell.eq_ignore_ascii_case(name));
-    match (column(b"x"), column(b"y")) {
-        (Some(x), Some(y)) => Ok(Columns { x, y, exact: false }),
-        _ => Err(format!(
-            "expected two numbers x,y or a header line with columns x and y, found {}",
+fn header<const D: usize>(record: &ByteRecord) -> Result<Columns<D>, String> {
+    let column =
+        |name: &&str| record.iter().position(|cell| cell.eq_ignore_ascii_case(name.as_bytes()));
+    let columns: Option<Vec<usize>> = AXES[..D].iter().map(column).collect();
+    match columns.and_then(|columns| columns.try_into().ok()) {
+        Some(of) => Ok(Columns { of, exact: false }),
+        None => Err(format!(
+            "expected {} or a header line with columns {}, found {}",
+            numbers::<D>(),
+            AXES[..D].join(" and "),
             text(record)
         )),
     }
 }
 
-fn csv_point(record: &ByteRecord, columns: &Columns) -> Result<[f64; 2], String> {
-    if columns.exact && record.len() != 2 {
-        return Err(format!("expected two numbers x,y, found {}", text(record)));
+/// What a line without a header must be.
+fn numbers<const D: usize>() -> String {
+    format!("{} numbers {}", if D == 2 { "two" } else { "three" }, AXES[..D].join(","))
+}
+
+fn csv_point<const D: usize>(
+    record: &ByteRecord,
+    columns: &Columns<D>,
+) -> Result<[f64; D], String> {
+    if columns.exact && record.len() != D {
+        return Err(format!("expected {}, found {}", numbers::<D>(), text(record)));
     }
-    let coordinate = |name: &str, column: usize| {
-        let cell = record.get(column).unwrap_or_default();
+    let mut point = [0.0; D];
+    for (axis, coordinate) in point.iter_mut().enumerate() {
+        let cell = record.get(columns.of[axis]).unwrap_or_default();
         let found = || excerpt(&String::from_utf8_lossy(cell));
-        number(cell)
-            .filter(|value| value.is_finite())
-            .ok_or_else(|| format!("expected a finite number for {name}, found \"{}\"", found()))
-    };
-    Ok([coordinate("x", columns.x)?, coordinate("y", columns.y)?])
+        *coordinate = number(cell).filter(|value| value.is_finite()).ok_or_else(|| {
+            format!("expected a finite number for {}, found \"{}\"", AXES[axis], found())
+        })?;
+    }
+    Ok(point)
 }
 
 fn number(cell: &[u8]) -> Option<f64> {

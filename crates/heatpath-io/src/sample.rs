@@ -117,6 +117,19 @@ impl Samples {
         });
     }
 
+    /// Adds samples of the same type at the end; others are left out.
+    pub(crate) fn append(&mut self, more: Self) {
+        macro_rules! arms {
+            ($($kind:ident),*) => {
+                match (self, more) {
+                    $((Self::$kind(all), Self::$kind(more)) => all.extend(more),)*
+                    _ => {}
+                }
+            };
+        }
+        arms!(U8, U16, U32, U64, I8, I16, I32, I64, F32, F64);
+    }
+
     /// The same samples in another order: the new sample `i` is the old one at `source(i)`.
     pub(crate) fn reordered(self, source: impl Fn(usize) -> usize) -> Self {
         /// One arm for each type: the result has the type of the input.

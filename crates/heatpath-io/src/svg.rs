@@ -15,10 +15,10 @@ const STYLE: &str = "polyline { fill: none; stroke: #0090d0; stroke-width: 1.5px
     circle { stroke: #000; stroke-width: 0.3 } circle.end { fill: #fff } \
     circle.source { fill: #e00000 }";
 
-/// The drawing in pixel coordinates: the centre of the first pixel is at 0,0 and the view is the
-/// picture's outline.
-pub(crate) fn drawing(curves: &Curves<2>, shape: &Shape<2>) -> String {
-    let [width, height] = shape.size();
+/// The drawing in pixel coordinates, of which the first two count: the centre of the first pixel is
+/// at 0,0 and the view is the picture's outline.
+pub(crate) fn drawing<const D: usize>(curves: &Curves<D>, shape: &Shape<D>) -> String {
+    let (width, height) = (shape.size()[0], shape.size()[1]);
     let radius = (shape.longest_side() as f64 / 150.0).clamp(0.5, 6.0);
     let mut document = Document::new()
         .set("viewBox", format!("-0.5 -0.5 {width} {height}"))
@@ -41,11 +41,11 @@ pub(crate) fn drawing(curves: &Curves<2>, shape: &Shape<2>) -> String {
     format!("{document}\n")
 }
 
-fn line(number: usize, path: &Curve<2>) -> Polyline {
+fn line<const D: usize>(number: usize, path: &Curve<D>) -> Polyline {
     let points: Vec<_> = path
         .points
         .iter()
-        .map(|[x, y]| format!("{},{}", number_text(*x), number_text(*y)))
+        .map(|point| format!("{},{}", number_text(point[0]), number_text(point[1])))
         .collect();
     let class = if matches!(path.ending, Ending::Source(_)) { "done" } else { "open" };
     Polyline::new()
@@ -55,11 +55,11 @@ fn line(number: usize, path: &Curve<2>) -> Polyline {
         .set("points", points.join(" "))
 }
 
-fn dot(class: &str, [x, y]: [f64; 2], radius: f64) -> Circle {
+fn dot<const D: usize>(class: &str, point: [f64; D], radius: f64) -> Circle {
     Circle::new()
         .set("class", class)
-        .set("cx", number_text(x))
-        .set("cy", number_text(y))
+        .set("cx", number_text(point[0]))
+        .set("cy", number_text(point[1]))
         .set("r", number_text(radius))
 }
 

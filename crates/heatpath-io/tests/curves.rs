@@ -76,6 +76,55 @@ fn json_knows_volumes() {
 }
 
 #[test]
+fn volumes_have_a_column_more_and_no_drawing() {
+    let folder = tempdir().unwrap();
+    let path = Path {
+        points: vec![[1.0, 2.0, 0.1], [0.0, 0.5, 3.0]],
+        ending: Ending::Source(0),
+        length: 0.0,
+        physical_length: 0.0,
+        distance: 0.0,
+    };
+    let points = path.points.clone();
+    let curves = Curves { spacing: [1.0, 1.0, 2.5], paths: vec![path] };
+    let shape = Shape::with_spacing([4, 4, 4], curves.spacing).unwrap();
+    let file = folder.path().join("a.csv");
+    write_curves(&file, None, false, &curves, &shape).unwrap();
+    let text = fs::read_to_string(&file).unwrap();
+    assert_eq!(text, "path,point,x,y,z,ended\n0,0,1.0,2.0,0.1,source\n0,1,0.0,0.5,3.0,source\n");
+    assert_eq!(read_points(&file).unwrap(), points);
+    let file = folder.path().join("a.svg");
+    let error = write_curves(&file, None, false, &curves, &shape).unwrap_err();
+    assert!(matches!(error, WriteError::Volume { .. }) && !file.exists(), "{error}");
+}
+
+#[test]
+fn points_in_volumes_have_three_coordinates() {
+    for text in [
+        "1,2,3\n4.5,-5,6e1\n",
+        "name,Z,Y,X\na,3,2,1\nb,60,-5,4.5\n",
+        "[[1, 2, 3], {\"x\": 4.5, \"y\": -5, \"z\": 60}]",
+    ] {
+        let points = read_points_from_bytes::<3>(text.as_bytes(), "points").unwrap();
+        assert_eq!(points, [[1.0, 2.0, 3.0], [4.5, -5.0, 60.0]], "{text}");
+    }
+    for (text, reason) in [
+        ("1,2\n", "line 1: expected three numbers x,y,z, found \"1,2\""),
+        (
+            "x,y\n1,2\n",
+            "line 1: expected three numbers x,y,z or a header line with columns x and y and z",
+        ),
+        ("1,2,nan\n", "line 1: expected a finite number for z, found \"nan\""),
+        ("[[1, 2]]", "entry 0: expected [x, y, z] or {\"x\": x, \"y\": y, \"z\": z}, found [1,2]"),
+    ] {
+        let error = read_points_from_bytes::<3>(text.as_bytes(), "p").unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+    let error = read_points_from_bytes::<2>(b"[[1, 2, 3]]", "p").unwrap_err().to_string();
+    assert!(error.contains("expected [x, y]"), "{error}");
+}
+
+#[test]
 fn csv_has_a_row_for_each_point() {
     let text = written("curves.csv", &some_curves());
     let lines: Vec<_> = text.lines().collect();
@@ -148,7 +197,7 @@ fn errors_name_the_line_or_the_entry() {
         ("[]", "the file"),
         ("x,y\n", "the file"),
     ] {
-        let error = read_points_from_bytes(text.as_bytes(), "points").unwrap_err();
+        let error = read_points_from_bytes::<2>(text.as_bytes(), "points").unwrap_err();
         let line = error.to_string();
         assert!(
             line.starts_with(&format!("points: {place}: ")) && line.lines().count() == 1,
@@ -156,7 +205,7 @@ fn errors_name_the_line_or_the_entry() {
         );
         assert!(matches!(error, ReadError::Points { .. }) && !error.is_access());
     }
-    assert!(read_points("no/such/points.csv").unwrap_err().is_access());
+    assert!(read_points::<2>("no/such/points.csv").unwrap_err().is_access());
 }
 
 fn coordinate() -> impl Strategy<Value = f64> {
@@ -172,7 +221,7 @@ proptest! {
         let csv = written("a.csv", &curves);
         prop_assert_eq!(&read_points_from_bytes(csv.as_bytes(), "a.csv").unwrap(), &points);
         let json = serde_json::to_string(&json!({ "points": points })).unwrap();
-        let back = read_points_from_bytes(json.as_bytes(), "a.json").unwrap();
+        let back = read_points_from_bytes::<2>(json.as_bytes(), "a.json").unwrap();
         // The JSON reader may miss the last bit of a number.
         for (a, b) in points.iter().flatten().zip(back.iter().flatten()) {
             prop_assert!((a - b).abs() <= 2.0 * f64::EPSILON * a.abs() + 1e-300);
@@ -181,6 +230,7 @@ proptest! {
 
     #[test]
     fn no_text_panics(text in "(?s).{0,60}|[\\[\\]{}\",:xy0-9eE.\n-]{0,60}") {
-        let _ = read_points_from_bytes(text.as_bytes(), "points");
+        let _ = read_points_from_bytes::<2>(text.as_bytes(), "points");
+        let _ = read_points_from_bytes::<3>(text.as_bytes(), "points");
     }
 }

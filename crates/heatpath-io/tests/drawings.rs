@@ -29,7 +29,7 @@ fn drawn_field(field: &Grid<f64, 2>, title: Option<&str>) -> RgbImage {
     image::open(file).unwrap().into_rgb8()
 }
 
-fn drawn_overlay(picture: &Grid<f64, 2>, layers: &Overlay<'_>) -> RgbImage {
+fn drawn_overlay(picture: &Grid<f64, 2>, layers: &Overlay<'_, 2>) -> RgbImage {
     let folder = tempdir().unwrap();
     let file = folder.path().join("overlay.png");
     write_overlay(&file, false, picture, layers).unwrap();

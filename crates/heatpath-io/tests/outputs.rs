@@ -4,8 +4,8 @@
 
 use heatpath_core::grid::{Grid, Shape};
 use heatpath_io::{
-    FieldFormat, FieldStyle, WriteError, check_output, info, read_field, write_atomically,
-    write_field,
+    FieldFormat, FieldStyle, Overlay, WriteError, check_dimension, check_output, info, read_field,
+    write_atomically, write_field, write_overlay,
 };
 use std::fs;
 use std::io::{self, Write};
@@ -154,4 +154,21 @@ fn fields_come_back() {
     let error = write_field(at("a.bmp"), None, false, &field, &FieldStyle::default()).unwrap_err();
     assert!(error.to_string().ends_with("accepted are .npy, .tif, .tiff, .png"));
     assert_eq!(FieldFormat::new("x.y.PNG", None).unwrap(), FieldFormat::Png);
+}
+
+#[test]
+fn volumes_are_not_drawn() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let volume = Grid::from_fn(Shape::new([3, 2, 2]).unwrap(), |[x, y, z]| (x + y + z) as f64);
+    for (name, format) in [("a.png", None), ("a.npy", Some("PNG"))] {
+        let error = write_field(at(name), format, false, &volume, &FieldStyle::default());
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("volume") && error.contains(".npy or .tif"), "{error}");
+        assert!(check_dimension(at(name), format, 3).is_err());
+        assert!(check_dimension(at(name), format, 2).is_ok());
+    }
+    let error = write_overlay(at("a.png"), false, &volume, &Overlay::default()).unwrap_err();
+    assert!(matches!(error, WriteError::Volume { .. }), "{error}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }

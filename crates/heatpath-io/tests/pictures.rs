@@ -6,29 +6,24 @@ mod common;
 
 use ::tiff::encoder::{Compression, colortype};
 use common::{npy, palette_tiff, png, raw_tiff, tiff, zoo};
-use heatpath_io::{
-    Channel, Format, PictureOptions, ReadError, SampleType, info_from_bytes, read_field_from_bytes,
-    read_mask_from_bytes, read_picture_from_bytes,
-};
+use heatpath_io::{Channel, Format, ImageFile, PictureOptions, ReadError, SampleType};
 use image::ExtendedColorType;
 
-const UNIT: [f64; 2] = [1.0, 1.0];
-
 fn field(bytes: &[u8]) -> Vec<f64> {
-    read_field_from_bytes(bytes, "test", UNIT).unwrap().into_values()
+    common::field::<2>(bytes, "test").unwrap().into_values()
 }
 
-fn picture(bytes: &[u8], options: &PictureOptions) -> Vec<f64> {
-    read_picture_from_bytes(bytes, "test", options).unwrap().into_values()
+fn picture(bytes: &[u8], options: &PictureOptions<2>) -> Vec<f64> {
+    common::picture(bytes, "test", options).unwrap().into_values()
 }
 
 fn mask(bytes: &[u8]) -> Vec<bool> {
-    let mask = read_mask_from_bytes(bytes, "test", UNIT).unwrap();
+    let mask = common::mask::<2>(bytes, "test").unwrap();
     (0..mask.shape().cells()).map(|i| mask.is_open(i)).collect()
 }
 
 fn sample(bytes: &[u8]) -> SampleType {
-    info_from_bytes(bytes, "test").unwrap().sample
+    common::info(bytes, "test").unwrap().sample
 }
 
 fn close(a: &[f64], b: &[f64]) -> bool {
@@ -36,12 +31,18 @@ fn close(a: &[f64], b: &[f64]) -> bool {
 }
 
 #[test]
-fn every_file_of_the_zoo_is_a_picture() {
-    for (name, bytes) in zoo() {
-        let info = info_from_bytes(&bytes, name).unwrap();
-        let picture = read_picture_from_bytes(&bytes, name, &PictureOptions::default()).unwrap();
-        assert_eq!(picture.shape().size(), info.size, "{name}");
+fn every_file_of_the_zoo_is_a_picture_or_a_volume() {
+    fn check<const D: usize>(name: &str, bytes: &[u8]) {
+        let picture = common::picture::<D>(bytes, name, &PictureOptions::default()).unwrap();
+        assert_eq!(picture.shape().size().to_vec(), common::info(bytes, name).unwrap().size);
         assert!(picture.values().iter().all(|v| (0.0..=1.0).contains(v)), "{name}");
+    }
+    for (name, bytes) in zoo() {
+        let info = common::info(&bytes, name).unwrap();
+        match info.size.len() {
+            2 => check::<2>(name, &bytes),
+            _ => check::<3>(name, &bytes),
+        }
         assert!(name.starts_with(match info.format {
             Format::Png => "png",
             Format::Jpeg => "jpeg",
@@ -61,7 +62,7 @@ fn png_keeps_sixteen_bits_and_rows() {
     assert_eq!(field(&file), [0.0, 1.0, 256.0, 65535.0, 1000.0, 7.0]);
     assert_eq!(sample(&file), SampleType::U16);
     assert_eq!(picture(&file, &PictureOptions::default())[3], 1.0);
-    let grid = read_field_from_bytes(&file, "test", [0.5, 2.0]).unwrap();
+    let grid = ImageFile::from_bytes(&file, "test").unwrap().into_field([0.5, 2.0]).unwrap();
     assert_eq!((grid.shape().size(), grid.shape().spacing()), ([3, 2], [0.5, 2.0]));
     assert_eq!(grid[[1, 1]], 1000.0);
 }
@@ -87,7 +88,7 @@ fn channels_of_colour_pictures() {
 #[test]
 fn fields_and_masks_of_colour_files() {
     let file = png(&[0, 0, 0, 0, 0, 9], [2, 1], ExtendedColorType::Rgb8);
-    let error = read_field_from_bytes(&file, "test", UNIT).unwrap_err();
+    let error = common::field::<2>(&file, "test").unwrap_err();
     assert!(matches!(error, ReadError::Colour { channels: 3, .. }), "{error}");
     assert_eq!(mask(&file), [false, true]);
 }
@@ -102,7 +103,7 @@ fn ranges_stretch_and_clamp() {
     assert_eq!(picture(&constant, &PictureOptions::default()), [0.0, 0.0]);
     for range in [(1.0, 1.0), (2.0, 1.0), (0.0, f64::INFINITY), (f64::NAN, 1.0)] {
         let options = PictureOptions { range: Some(range), ..Default::default() };
-        let error = read_picture_from_bytes(&file, "test", &options).unwrap_err();
+        let error = common::picture::<2>(&file, "test", &options).unwrap_err();
         assert!(matches!(error, ReadError::Range { .. }));
     }
 }
@@ -149,17 +150,17 @@ fn npy_orders_and_shapes() {
     assert!(close(&picture(&c, &green), &[1.0, 4.0, 7.0, 10.0].map(|v| v / 255.0)));
     assert_eq!(picture(&c, &green), picture(&fortran, &green));
     for (shape, cells) in
-        [("(3,)", 3), ("(1, 1, 1, 2)", 2), ("()", 1), ("(2, 2, 2)", 8), ("(0, 3)", 0)]
+        [("(3,)", 3), ("(1, 1, 1, 2)", 2), ("()", 1), ("(0, 3)", 0), ("(2, 2, 0)", 0)]
     {
         let file = npy("'|u1'", false, shape, &vec![0; cells]);
-        let error = read_field_from_bytes(&file, "test", UNIT).unwrap_err();
+        let error = common::field::<2>(&file, "test").unwrap_err();
         assert!(matches!(error, ReadError::Shape { .. }), "{error}");
     }
     for descr in
         ["[('a', '<f4'), ('b', '|u1', (2,))]", "'<f2'", "'<c8'", "'|O'", "'<U3'", "'<M8[s]'"]
     {
         let file = npy(descr, false, "(1, 1)", &[0; 64]);
-        let error = read_field_from_bytes(&file, "test", UNIT).unwrap_err();
+        let error = common::field::<2>(&file, "test").unwrap_err();
         assert!(matches!(error, ReadError::Type { .. }), "{error}");
     }
 }
@@ -176,7 +177,7 @@ fn pnm_values_are_as_stored() {
     assert_eq!(sample(b"P4\n3 1\n\xa0"), SampleType::Bool);
     let red = PictureOptions { channel: Channel::Red, ..Default::default() };
     assert_eq!(picture(b"P3\n1 2\n255\n255 0 0\n0 0 255\n", &red), [1.0, 0.0]);
-    assert!(read_field_from_bytes(b"P2\n1 1\n0\n0", "test", UNIT).is_err());
+    assert!(common::field::<2>(b"P2\n1 1\n0\n0", "test").is_err());
 }
 
 #[test]
@@ -195,7 +196,7 @@ fn tiff_types() {
     assert_eq!(field(&tiff::<colortype::GrayI32>([1, 1], &[&[i32::MIN]], raw)), [-2_147_483_648.0]);
     assert_eq!(field(&tiff::<colortype::Gray64Float>([1, 1], &[&[0.1]], raw)), [0.1]);
     let lzw = tiff::<colortype::RGB16>([1, 1], &[&[1, 2, 3]], Compression::Lzw);
-    let info = info_from_bytes(&lzw, "test").unwrap();
+    let info = common::info(&lzw, "test").unwrap();
     assert_eq!((info.channels, info.min, info.max), (3, Some(1.0), Some(3.0)));
 }
 
@@ -203,12 +204,12 @@ fn tiff_types() {
 fn float_tiffs_with_gaps() {
     let values = [0.0_f32, 4.0, f32::NAN, 1.0];
     let file = tiff::<colortype::Gray32Float>([2, 2], &[&values], Compression::Uncompressed);
-    let error = read_picture_from_bytes(&file, "gap.tif", &PictureOptions::default()).unwrap_err();
+    let error = common::picture::<2>(&file, "gap.tif", &PictureOptions::default()).unwrap_err();
     assert_eq!(error.to_string(), "gap.tif: the pixel at x = 0, y = 1 is NaN; all must be finite");
     assert!(field(&file)[2].is_nan());
-    let info = info_from_bytes(&file, "gap.tif").unwrap();
+    let info = common::info(&file, "gap.tif").unwrap();
     assert_eq!((info.min, info.max, info.not_finite), (Some(0.0), Some(4.0), 1));
-    assert!(read_mask_from_bytes(&file, "gap.tif", UNIT).is_err());
+    assert!(common::mask::<2>(&file, "gap.tif").is_err());
 }
 
 #[test]
@@ -260,7 +261,7 @@ fn tiff_palettes_become_colours() {
     let grey = f64::from(0x1234) / 65535.0;
     assert!(close(&picture(&palette_tiff(), &options), &[0.0, 1.0, grey, 1.0, 1.0, 1.0]));
     assert_eq!(mask(&palette_tiff()), [false, true, true, true, true, true]);
-    assert_eq!(info_from_bytes(&palette_tiff(), "test").unwrap().channels, 3);
+    assert_eq!(common::info(&palette_tiff(), "test").unwrap().channels, 3);
 }
 
 #[test]
@@ -279,9 +280,72 @@ const ONE_BIT_PNG: &[u8] = &[
     0x44, 0xae, 0x42, 0x60, 0x82,
 ];
 #[test]
+fn arrays_of_three_axes_are_volumes() {
+    // numpy.arange(24).reshape(2, 2, 6): slices, rows, columns
+    let data: Vec<u8> = (0..24).collect();
+    let file = npy("'|u1'", false, "(2, 2, 6)", &data);
+    let volume = common::field::<3>(&file, "test").unwrap();
+    assert_eq!(volume.shape().size(), [6, 2, 2]);
+    assert_eq!((volume[[5, 0, 0]], volume[[0, 1, 0]], volume[[4, 1, 1]]), (5.0, 6.0, 22.0));
+    assert!(!common::mask::<3>(&file, "test").unwrap().is_open(0));
+    let error = common::field::<2>(&file, "v.npy").unwrap_err();
+    assert_eq!(error.to_string(), "v.npy: has 6 x 2 x 2 voxels; a picture is needed");
+    let info = common::info(&file, "test").unwrap();
+    assert_eq!((info.size, info.channels, info.max), (vec![6, 2, 2], 1, Some(23.0)));
+}
+
+/// Three axes of which the last one is short: colours, unless a volume is asked for.
+#[test]
+fn an_axis_of_colours_can_be_one_of_columns() {
+    for columns in [1, 3, 4] {
+        let data: Vec<u8> = (0..2 * 5 * columns).collect();
+        let file = npy("'|u1'", false, &format!("(2, 5, {columns})"), &data);
+        let decoded = ImageFile::from_bytes(&file, "test").unwrap();
+        assert_eq!(decoded.dimensions(), [2, 3]);
+        assert_eq!(decoded.info().size, [5, 2]);
+        let volume = decoded.into_field([1.0, 1.0, 2.5]).unwrap();
+        assert_eq!(volume.shape().size(), [usize::from(columns), 5, 2]);
+        assert_eq!(volume.shape().spacing(), [1.0, 1.0, 2.5]);
+        assert!(volume.values().iter().enumerate().all(|(i, &value)| value == i as f64));
+    }
+}
+
+#[test]
+fn pages_of_grey_are_the_slices_of_a_volume() {
+    let pages: [&[u16]; 3] =
+        [&[1, 2, 3, 4, 5, 6], &[7, 8, 9, 10, 11, 12], &[13, 14, 15, 16, 17, 18]];
+    for compression in [Compression::Uncompressed, Compression::Lzw, Compression::Packbits] {
+        let file = tiff::<colortype::Gray16>([3, 2], &pages, compression);
+        let volume = common::field::<3>(&file, "test").unwrap();
+        assert_eq!(volume.shape().size(), [3, 2, 3]);
+        assert!(volume.values().iter().enumerate().all(|(i, &value)| value == (i + 1) as f64));
+        let grey = common::picture::<3>(&file, "test", &PictureOptions::default()).unwrap();
+        assert_eq!(grey[[2, 1, 2]], 18.0 / 65535.0);
+        let error = common::mask::<2>(&file, "stack.tif").unwrap_err().to_string();
+        assert_eq!(error, "stack.tif: has 3 x 2 x 3 voxels; a picture is needed");
+    }
+    // Several pages in colour: the first one, as before.
+    let colour = tiff::<colortype::RGB8>([1, 1], &[&[1, 2, 3], &[4, 5, 6]], Compression::Lzw);
+    let info = common::info(&colour, "test").unwrap();
+    assert_eq!((info.size, info.channels, info.pages), (vec![1, 1], 3, 2));
+}
+
+#[test]
+fn pictures_are_no_volumes() {
+    for (name, bytes) in zoo() {
+        let info = common::info(&bytes, name).unwrap();
+        if info.size.len() == 2 && name != "npy colour" {
+            let error = common::field::<3>(&bytes, name).unwrap_err();
+            assert!(matches!(error, ReadError::Dimension { dimension: 3, .. }), "{error}");
+            assert!(error.to_string().contains("a volume is needed: a TIFF of several"), "{error}");
+        }
+    }
+}
+
+#[test]
 fn info_is_plain_json() {
     let file = png(&[1, 2, 3, 4, 5, 6], [3, 2], ExtendedColorType::L8);
-    let json = serde_json::to_value(info_from_bytes(&file, "test").unwrap()).unwrap();
+    let json = serde_json::to_value(common::info(&file, "test").unwrap()).unwrap();
     let expected = serde_json::json!({
         "format": "png", "size": [3, 2], "channels": 1, "sample": "uint8",
         "min": 1.0, "max": 6.0, "not_finite": 0, "pages": 1

@@ -21,7 +21,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let decoder = JpegDecoder::new(Cursor::new(input.bytes)).map_err(|e| input.broken(e))?;
     let (width, height) = decoder.dimensions();
     let claimed = [u64::from(width), u64::from(height)];
-    let size = input.check_size(claimed, (claimed[0] * claimed[1]).div_ceil(PIXELS_A_BYTE))?;
+    let size = input.check_size(&claimed, (claimed[0] * claimed[1]).div_ceil(PIXELS_A_BYTE))?;
     let (samples, channels) = input.samples(decoder)?;
     Ok(Raster {
         format: input.format,
@@ -31,6 +31,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         samples,
         white: Some(255.0),
         pages: 1,
+        channel_axis: false,
     })
 }
 

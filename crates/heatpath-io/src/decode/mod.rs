@@ -9,16 +9,17 @@ mod pnm;
 mod tiff;
 
 use crate::ReadError;
+use crate::error::pixels;
 use crate::sample::{SampleType, Samples};
 use image::{ColorType, ImageDecoder};
 use serde::Serialize;
 use std::fmt;
 use std::path::Path;
 
-/// The largest accepted number of pixels.
+/// The largest accepted number of pixels, in a volume over all slices.
 const MOST_PIXELS: u64 = 1 << 30;
 
-/// A picture format, recognised by a file's first bytes and never by its name.
+/// A format of pictures and volumes, recognised by a file's first bytes and never by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -62,31 +63,54 @@ impl fmt::Display for Format {
     }
 }
 
-/// A decoded file.
+/// A decoded file: a picture, or a volume.
 #[derive(Clone, Debug)]
 pub(crate) struct Raster {
     pub(crate) format: Format,
-    /// Columns and rows.
-    pub(crate) size: [usize; 2],
+    /// Columns, rows and, of a volume, slices.
+    pub(crate) size: Vec<usize>,
     /// Grey, grey and alpha, red-green-blue, or these and alpha.
     pub(crate) channels: usize,
     pub(crate) sample: SampleType,
-    /// Row by row, the channels of a pixel side by side.
+    /// Slice by slice and row by row, the channels of a pixel side by side.
     pub(crate) samples: Samples,
     /// The value of white, for the types that have one: bilevel, 8 and 16 bit unsigned.
     pub(crate) white: Option<f64>,
-    /// Pictures in the file; the first one was decoded.
+    /// Pictures in the file; the first one was decoded, or all of them as the slices of a volume.
     pub(crate) pages: usize,
+    /// Whether the file has an axis of channels, which could be that of columns as well.
+    pub(crate) channel_axis: bool,
 }
 
 impl Raster {
+    /// The dimensions in which it can be read, the likelier one first.
+    pub(crate) fn dimensions(&self) -> &'static [usize] {
+        match self.size.len() {
+            2 if self.channel_axis => &[2, 3],
+            2 => &[2],
+            _ => &[3],
+        }
+    }
+
+    /// The same samples in `dimension` dimensions, if that is one of [`Self::dimensions`].
+    pub(crate) fn in_dimension(mut self, dimension: usize) -> Option<Self> {
+        if !self.dimensions().contains(&dimension) {
+            return None;
+        }
+        if self.size.len() < dimension {
+            self.size.insert(0, std::mem::replace(&mut self.channels, 1));
+        }
+        Some(self)
+    }
+
     /// The channels without alpha: 1 or 3.
     pub(crate) fn colours(&self) -> usize {
         if self.channels < 3 { 1 } else { 3 }
     }
 }
 
-/// Decodes the first picture of a file whose content is `bytes`; `path` is for messages.
+/// Decodes the first picture, or the volume, of a file whose content is `bytes`; `path` is for
+/// messages.
 pub(crate) fn decode(bytes: &[u8], path: &Path) -> Result<Raster, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty { path: path.to_owned() });
@@ -122,19 +146,19 @@ impl Input<'_> {
 
     /// Checks a claimed size before anything of that size is allocated. `least_bytes` is what a
     /// file of such a picture cannot do without.
-    fn check_size(&self, size: [u64; 2], least_bytes: u64) -> Result<[usize; 2], ReadError> {
+    fn check_size(&self, size: &[u64], least_bytes: u64) -> Result<Vec<usize>, ReadError> {
         let (path, bytes) = (self.path.to_owned(), self.bytes.len() as u64);
         if size.contains(&0) {
-            return Err(self.broken(format!("{} x {} pixels: nothing to see", size[0], size[1])));
+            return Err(self.broken(format!("{}: nothing to see", pixels(size))));
         }
-        match size[0].checked_mul(size[1]) {
-            Some(pixels) if pixels <= MOST_PIXELS => {}
-            _ => return Err(ReadError::TooLarge { path, size, most: MOST_PIXELS }),
+        let product = size.iter().try_fold(1_u64, |product, &n| product.checked_mul(n));
+        if product.is_none_or(|pixels| pixels > MOST_PIXELS) {
+            return Err(ReadError::TooLarge { path, size: size.to_vec(), most: MOST_PIXELS });
         }
         if least_bytes > bytes {
-            return Err(ReadError::Truncated { path, size, bytes });
+            return Err(ReadError::Truncated { path, size: size.to_vec(), bytes });
         }
-        Ok(size.map(|n| n as usize))
+        Ok(size.iter().map(|&n| n as usize).collect())
     }
 
     /// Runs a decoder of the `image` crate: its samples and how many there are in a pixel.

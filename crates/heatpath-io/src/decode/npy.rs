@@ -7,39 +7,57 @@ use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
 
 type Array<'a> = NpyFile<&'a [u8]>;
 
-/// Both byte orders, C and Fortran order; shape (rows, columns) or (rows, columns, 3 or 4).
+/// Both byte orders, C and Fortran order; shape (rows, columns), (rows, columns, 3 or 4) in colour,
+/// or (slices, rows, columns).
 pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     npy_header::check(input.bytes).map_err(|e| input.broken(e))?;
     let array = NpyFile::new(input.bytes).map_err(|e| input.broken(e))?;
     let sample = sample_type(input, &array.dtype())?;
     let (size, channels) = check_shape(input, &array)?;
-    let (fortran, [columns, rows]) = (array.order() == Order::Fortran, size);
+    let channel_axis = size.len() < array.shape().len();
+    let fortran = (array.order() == Order::Fortran).then(|| array.shape().to_vec());
     let mut samples = read(input, array, sample)?;
-    if fortran {
-        // The first index runs fastest: row, then column, then channel.
-        samples = samples.reordered(|i| {
-            let (pixel, channel) = (i / channels, i % channels);
-            pixel / columns + rows * (pixel % columns + columns * channel)
-        });
+    if let Some(shape) = fortran {
+        samples = samples.reordered(|i| fortran_position(&shape, i));
     }
-    let white = white(sample);
-    Ok(Raster { format: input.format, size, channels, sample, samples, white, pages: 1 })
+    Ok(Raster {
+        format: input.format,
+        size,
+        channels,
+        sample,
+        samples,
+        white: white(sample),
+        pages: 1,
+        channel_axis,
+    })
 }
 
-fn check_shape(input: &Input<'_>, array: &Array<'_>) -> Result<([usize; 2], usize), ReadError> {
-    let (rows, columns, channels) = match *array.shape() {
-        [rows, columns] if rows > 0 && columns > 0 => (rows, columns, 1),
-        [rows, columns, channels @ (1 | 3 | 4)] if rows > 0 && columns > 0 => {
-            (rows, columns, channels)
-        }
-        _ => {
-            let shape = array.shape().to_vec();
-            return Err(ReadError::Shape { path: input.path.to_owned(), shape });
-        }
+/// Where the element at position `i` of C order, in which the last index runs fastest, stands in
+/// Fortran order, in which the first one does.
+fn fortran_position(shape: &[u64], i: usize) -> usize {
+    let mut rest = i;
+    shape.iter().rev().fold(0, |position, &side| {
+        let index = rest % side as usize;
+        rest /= side as usize;
+        position * side as usize + index
+    })
+}
+
+fn check_shape(input: &Input<'_>, array: &Array<'_>) -> Result<(Vec<usize>, usize), ReadError> {
+    let shape = array.shape().to_vec();
+    let (size, channels) = match *shape {
+        _ if shape.contains(&0) => (Vec::new(), 0),
+        [rows, columns] => (vec![columns, rows], 1),
+        [rows, columns, channels @ (1 | 3 | 4)] => (vec![columns, rows], channels as usize),
+        [slices, rows, columns] => (vec![columns, rows, slices], 1),
+        _ => (Vec::new(), 0),
     };
+    if size.is_empty() {
+        return Err(ReadError::Shape { path: input.path.to_owned(), shape });
+    }
     let item = array.dtype().num_bytes().unwrap_or(1) as u64;
-    let size = input.check_size([columns, rows], array.len().saturating_mul(item))?;
-    Ok((size, channels as usize))
+    let size = input.check_size(&size, array.len().saturating_mul(item))?;
+    Ok((size, channels))
 }
 
 fn sample_type(input: &Input<'_>, dtype: &DType) -> Result<SampleType, ReadError> {

@@ -75,8 +75,8 @@ pub(super) fn resolved(places: &Raster, colours: &[u16]) -> Result<Raster, Strin
     } else {
         (Samples::U16(values.collect()), SampleType::U16, 65535.0)
     };
-    let Raster { format, size, pages, .. } = *places;
-    Ok(Raster { format, size, channels, sample, samples, white: Some(white), pages })
+    let size = places.size.clone();
+    Ok(Raster { size, channels, sample, samples, white: Some(white), ..*places })
 }
 
 fn is_grey(colours: &[u16], length: usize) -> bool {

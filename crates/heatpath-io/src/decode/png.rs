@@ -40,11 +40,12 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         samples,
         white: Some(white),
         pages: 1,
+        channel_axis: false,
     })
 }
 
 /// Reads the size from the first chunk, which every PNG begins with.
-fn check_header(input: &Input<'_>) -> Result<[usize; 2], ReadError> {
+fn check_header(input: &Input<'_>) -> Result<Vec<usize>, ReadError> {
     let header = input.bytes.get(8..DEPTH + 2).filter(|header| &header[4..8] == b"IHDR");
     let Some(header) = header else {
         return Err(input.broken("the header is missing"));
@@ -61,5 +62,5 @@ fn check_header(input: &Input<'_>) -> Result<[usize; 2], ReadError> {
     };
     let row_bits = width.saturating_mul(samples * u64::from(header[16]));
     let raw_bytes = height.saturating_mul(row_bits.div_ceil(8) + 1);
-    input.check_size([width, height], raw_bytes.div_ceil(EXPANSION))
+    input.check_size(&[width, height], raw_bytes.div_ceil(EXPANSION))
 }

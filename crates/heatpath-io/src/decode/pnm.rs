@@ -22,10 +22,19 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         _ => SampleType::U8,
     };
     let white = Some(f64::from(white));
-    Ok(Raster { format: input.format, size, channels, sample, samples, white, pages: 1 })
+    Ok(Raster {
+        format: input.format,
+        size,
+        channels,
+        sample,
+        samples,
+        white,
+        pages: 1,
+        channel_axis: false,
+    })
 }
 
-fn check_header(input: &Input<'_>, header: &PnmHeader) -> Result<[usize; 2], ReadError> {
+fn check_header(input: &Input<'_>, header: &PnmHeader) -> Result<Vec<usize>, ReadError> {
     let claimed = [u64::from(header.width()), u64::from(header.height())];
     if header.maximal_sample() == 0 {
         return Err(input.broken("the largest sample value is 0"));
@@ -40,7 +49,7 @@ fn check_header(input: &Input<'_>, header: &PnmHeader) -> Result<[usize; 2], Rea
         _ if header.maximal_sample() > 255 => row.saturating_mul(2),
         _ => row,
     };
-    input.check_size(claimed, claimed[1].saturating_mul(row_bytes))
+    input.check_size(&claimed, claimed[1].saturating_mul(row_bytes))
 }
 
 /// Undoes the decoder's stretching of 0..white to the whole range of the type.

@@ -2,11 +2,12 @@
 
 use super::{Input, Raster, palette};
 use crate::ReadError;
+use crate::error::pixels;
 use crate::sample::{SampleType, Samples};
 use std::io::Cursor;
-use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
+use tiff::{ColorType, TiffResult};
 
 type File<'a> = Decoder<Cursor<&'a [u8]>>;
 
@@ -20,7 +21,8 @@ const ROWS_A_BYTE: u64 = 8;
 /// The number of a picture whose samples are places in a list of colours.
 const PALETTE: u16 = 3;
 
-/// Grey (1 to 64 bits), colour or palette; with or without alpha; strips or tiles; the first page.
+/// Grey (1 to 64 bits), colour or palette; with or without alpha; strips or tiles. Several pages of
+/// grey are the slices of a volume if the first two are alike; else the first page is the picture.
 pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let mut file = open(input)?;
     if file.find_tag_unsigned(Tag::PhotometricInterpretation).ok().flatten() == Some(PALETTE) {
@@ -30,17 +32,114 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
 }
 
 fn decode_file(input: &Input<'_>, mut file: File<'_>) -> Result<Raster, ReadError> {
-    let colour = file.colortype().map_err(|e| input.broken(e))?;
-    let (channels, bits) = (channels(input, &mut file, colour)?, colour.bit_depth());
-    let (size, bytes) = check_header(input, &mut file, colour)?;
-    let mut file = file.with_limits(limits(input, bytes));
-    let (samples, sample) = read(input, &mut file, size, colour)?;
-    if samples.len() != size[0] * size[1] * channels {
+    let first = Page::describe(&mut file).map_err(|e| input.broken(e))?;
+    let channels = channels(input, &mut file, first.colour)?;
+    let further = further_pages(&mut file);
+    let size = size(input, &first, &further)?;
+    let mut file = file.with_limits(limits(input, first.raw_bytes));
+    file.seek_to_image(0).map_err(|e| input.broken(e))?;
+    let (mut samples, sample) = read(input, &mut file, &first)?;
+    for number in 2..=size.get(2).copied().unwrap_or(1) {
+        file.next_image().map_err(|e| on_page(number, input.broken(e)))?;
+        let (slice, other) =
+            read(input, &mut file, &first).map_err(|error| on_page(number, error))?;
+        if other != sample {
+            let reason = format!("samples of type {other}, but those of page 1 are {sample}");
+            return Err(on_page(number, input.broken(reason)));
+        }
+        samples.append(slice);
+    }
+    if samples.len() != size.iter().product::<usize>() * channels {
         return Err(input.broken("the number of samples does not fit the size"));
     }
-    let (white, pages) =
-        (white(sample, bits), 1 + further_pages(file.with_limits(limits(input, 0))));
-    Ok(Raster { format: input.format, size, channels, sample, samples, white, pages })
+    let (format, white) = (input.format, white(sample, first.colour.bit_depth()));
+    let pages = 1 + further.iter().filter(|page| page.is_ok()).count();
+    Ok(Raster { format, size, channels, sample, samples, white, pages, channel_axis: false })
+}
+
+/// A page before it is decoded.
+struct Page {
+    /// Columns and rows.
+    size: [u64; 2],
+    colour: ColorType,
+    /// The bytes of all samples.
+    raw_bytes: u64,
+    /// What a file with this page cannot do without.
+    least_bytes: u64,
+}
+
+impl Page {
+    /// The page that the decoder is at.
+    fn describe(file: &mut File<'_>) -> TiffResult<Self> {
+        let (colour, (width, height)) = (file.colortype()?, file.dimensions()?);
+        let size = [u64::from(width), u64::from(height)];
+        let row_bits = size[0].saturating_mul(u64::from(colour.num_samples()));
+        let row_bytes = row_bits.saturating_mul(u64::from(colour.bit_depth())).div_ceil(8);
+        let raw_bytes = size[1].saturating_mul(row_bytes);
+        let compression = file.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten();
+        let least_bytes = match compression.unwrap_or(1) {
+            1 => raw_bytes,
+            2..=4 => size[1].div_ceil(ROWS_A_BYTE),
+            _ => raw_bytes.div_ceil(EXPANSION),
+        };
+        Ok(Self { size, colour, raw_bytes, least_bytes })
+    }
+
+    fn is_like(&self, other: &Self) -> bool {
+        self.size == other.size && self.colour == other.colour
+    }
+}
+
+/// The pages after the first one.
+fn further_pages(file: &mut File<'_>) -> Vec<TiffResult<Page>> {
+    let mut pages = Vec::new();
+    while file.more_images() {
+        pages.push(file.next_image().and_then(|()| Page::describe(file)));
+    }
+    pages
+}
+
+/// The size of the picture, or of the volume if there are several pages of grey like the first one.
+///
+/// Pages that differ from the second one on are thumbnails or the levels of a pyramid; a volume
+/// with a page that differs is damaged.
+fn size(
+    input: &Input<'_>,
+    first: &Page,
+    further: &[TiffResult<Page>],
+) -> Result<Vec<usize>, ReadError> {
+    let grey = matches!(first.colour, ColorType::Gray(_));
+    let second = further.first();
+    if !grey || second.is_none_or(|page| page.as_ref().is_ok_and(|page| !page.is_like(first))) {
+        return input.check_size(&first.size, first.least_bytes);
+    }
+    let mut least_bytes = first.least_bytes;
+    for (number, page) in (2..).zip(further) {
+        match page {
+            Ok(page) if page.is_like(first) => {
+                least_bytes = least_bytes.saturating_add(page.least_bytes);
+            }
+            Ok(page) => {
+                let [found, needed] =
+                    [page, first].map(|p| format!("{:?} {}", p.colour, pixels(&p.size)));
+                let reason = format!("has {found}, but page 1 has {needed}");
+                return Err(on_page(number, input.broken(reason)));
+            }
+            Err(error) => return Err(on_page(number, input.broken(error))),
+        }
+    }
+    let [width, height] = first.size;
+    input.check_size(&[width, height, 1 + further.len() as u64], least_bytes)
+}
+
+/// The same error with the number of the page, counted from 1.
+fn on_page(number: usize, error: ReadError) -> ReadError {
+    match error {
+        ReadError::Decode { path, format, reason } => {
+            ReadError::Decode { path, format, reason: format!("page {number}: {reason}") }
+        }
+        other => other,
+    }
 }
 
 /// The crate knows no palettes: a copy of the file that claims to be grey gives the places in the
@@ -94,33 +193,14 @@ fn second_is_alpha(file: &mut File<'_>) -> bool {
     matches!(extra, Ok(Some(extra)) if matches!(extra[..], [1 | 2]))
 }
 
-/// The size, and the bytes of all samples.
-fn check_header(
-    input: &Input<'_>,
-    file: &mut File<'_>,
-    colour: ColorType,
-) -> Result<([usize; 2], u64), ReadError> {
-    let (width, height) = file.dimensions().map_err(|e| input.broken(e))?;
-    let claimed = [u64::from(width), u64::from(height)];
-    let row_bits = claimed[0].saturating_mul(u64::from(colour.num_samples()));
-    let row_bytes = row_bits.saturating_mul(u64::from(colour.bit_depth())).div_ceil(8);
-    let raw_bytes = claimed[1].saturating_mul(row_bytes);
-    let compression = file.find_tag_unsigned::<u16>(Tag::Compression).ok().flatten();
-    let least_bytes = match compression.unwrap_or(1) {
-        1 => raw_bytes,
-        2..=4 => claimed[1].div_ceil(ROWS_A_BYTE),
-        _ => raw_bytes.div_ceil(EXPANSION),
-    };
-    Ok((input.check_size(claimed, least_bytes)?, raw_bytes))
-}
-
-/// Decodes, unpacks samples of less than a byte, and puts the channels of a pixel side by side.
+/// Decodes a page, unpacks samples of less than a byte, and puts the channels of a pixel side by
+/// side.
 fn read(
     input: &Input<'_>,
     file: &mut File<'_>,
-    size: [usize; 2],
-    colour: ColorType,
+    page: &Page,
 ) -> Result<(Samples, SampleType), ReadError> {
+    let (size, colour) = (page.size.map(|n| n as usize), page.colour);
     let mut result = DecodingResult::U8(Vec::new());
     let layout = file.read_image_to_buffer(&mut result).map_err(|e| input.broken(e))?;
     let (bits, per_pixel) = (colour.bit_depth(), usize::from(colour.num_samples()));
@@ -177,13 +257,4 @@ fn white(sample: SampleType, bits: u8) -> Option<f64> {
         SampleType::U8 | SampleType::U16 => Some(f64::from((1_u32 << bits) - 1)),
         _ => None,
     }
-}
-
-/// The readable pictures after the first one.
-fn further_pages(mut file: File<'_>) -> usize {
-    let mut pages = 0;
-    while file.more_images() {
-        pages += usize::from(file.next_image().is_ok());
-    }
-    pages
 }

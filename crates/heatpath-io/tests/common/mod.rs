@@ -3,9 +3,32 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 #![allow(dead_code, reason = "each test program uses a part of this")]
 
+use heatpath_core::grid::{Grid, Mask};
+use heatpath_io::{ImageFile, Info, PictureOptions, ReadError};
 use image::{ExtendedColorType, ImageEncoder};
 use std::io::Cursor;
 use tiff::encoder::{Compression, TiffEncoder, colortype};
+
+/// Bytes as a picture or volume, as a field, as a mask.
+pub(crate) fn picture<const D: usize>(
+    bytes: &[u8],
+    name: &str,
+    options: &PictureOptions<D>,
+) -> Result<Grid<f64, D>, ReadError> {
+    ImageFile::from_bytes(bytes, name)?.into_picture(options)
+}
+
+pub(crate) fn field<const D: usize>(bytes: &[u8], name: &str) -> Result<Grid<f64, D>, ReadError> {
+    ImageFile::from_bytes(bytes, name)?.into_field([1.0; D])
+}
+
+pub(crate) fn mask<const D: usize>(bytes: &[u8], name: &str) -> Result<Mask<D>, ReadError> {
+    ImageFile::from_bytes(bytes, name)?.into_mask([1.0; D])
+}
+
+pub(crate) fn info(bytes: &[u8], name: &str) -> Result<Info, ReadError> {
+    Ok(ImageFile::from_bytes(bytes, name)?.info())
+}
 
 /// A PNG of one of the colour types of the `image` crate.
 pub(crate) fn png(bytes: &[u8], size: [u32; 2], kind: ExtendedColorType) -> Vec<u8> {
@@ -116,5 +139,6 @@ pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
         ("ppm", b"P6\n1 2\n255\nabcdef".to_vec()),
         ("npy", npy("'|u1'", false, "(2, 3)", &ramp[..6])),
         ("npy colour", npy("'<u2'", false, "(1, 2, 3)", &ramp[..12])),
+        ("npy volume", npy("'<u2'", true, "(2, 3, 2)", &ramp[..24])),
     ]
 }
