@@ -65,6 +65,9 @@
 /** A mistake inside heatpath. The library stays usable; please report it with the message. */
 #define HP_PANIC 10
 
+/** The medium is slower in places than the range of numbers allows. */
+#define HP_RANGE 11
+
 /** Pixels are uint8_t. */
 #define HP_U8 1
 

@@ -56,7 +56,7 @@ fn distance_in<const D: usize>(
     let medium_start = Instant::now();
     let medium = picture.medium(&args.medium, &sources)?;
     let medium_seconds = medium_start.elapsed().as_secs_f64();
-    let outcome = flow(&medium, &sources, &args.heat, args.out.quiet)?;
+    let outcome = flow(&medium, &sources, &args.heat, false, args.out.quiet)?;
     // === Write
     let field = outcome.distances.field();
     if let Some(output) = &args.output {

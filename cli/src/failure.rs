@@ -108,6 +108,7 @@ impl From<HeatError> for Failure {
     fn from(error: HeatError) -> Self {
         match error {
             HeatError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            HeatError::Range => Self::no_answer(error),
             HeatError::StepTooLarge { .. } => {
                 Self::bad_input(format!("{error}; `--step auto` chooses one"))
             }

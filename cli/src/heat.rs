@@ -23,15 +23,17 @@ pub(crate) struct Outcome<const D: usize> {
     pub(crate) simd: &'static str,
 }
 
-/// Lets heat flow from `sources` through `medium` and reads it as distances.
+/// Lets heat flow from `sources` through `medium` and reads it as distances; keeps its `exposure` for
+/// paths if asked to.
 pub(crate) fn flow<const D: usize>(
     medium: &Medium<D>,
     sources: &[[f64; D]],
     args: &HeatArgs,
+    exposure: bool,
     quiet: bool,
 ) -> Result<Outcome<D>, Failure> {
     let sources = Sources::new(sources, medium.mask())?;
-    let explicit = Explicit::new(medium, options(args))?;
+    let explicit = Explicit::new(medium, HeatOptions { exposure, ..options(args) })?;
     let bar = progress_bar(quiet);
     let interrupted = interruption();
     let exec = Exec::new(args.threads)?.with_watch(|finished| {
@@ -76,7 +78,7 @@ fn options(args: &HeatArgs) -> HeatOptions {
             FaceMeanArg::Arithmetic => FaceMean::Arithmetic,
             FaceMeanArg::Harmonic => FaceMean::Harmonic,
         },
-        exposure: true,
+        ..HeatOptions::default()
     }
 }
 

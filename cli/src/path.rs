@@ -25,7 +25,7 @@ fn path_in<const D: usize>(args: &PathArgs, file: ImageFile) -> Result<(), Failu
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let ends = picture.points("end", &args.end, args.ends.as_deref())?;
     let medium = picture.medium(&args.medium, &sources)?;
-    let outcome = flow(&medium, &sources, &args.heat, args.out.quiet)?;
+    let outcome = flow(&medium, &sources, &args.heat, true, args.out.quiet)?;
     let descent = Descent::new(&outcome.heat)?;
     let paths = ends
         .iter()

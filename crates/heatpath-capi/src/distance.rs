@@ -65,7 +65,7 @@ unsafe fn write_distance<const D: usize>(
             format!("distance: it has {size:?} pixels, but the image has {expected:?}"),
         ));
     }
-    let heat = problem.flow(1.0)?;
+    let heat = problem.flow(1.0, false)?;
     let distances = problem.distances(&heat);
     problem.progress().check(1.0)?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.

@@ -126,7 +126,7 @@ unsafe fn trace<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     check_points("end", ends, problem.mask())?;
-    let heat = problem.flow(HEAT_SHARE)?;
+    let heat = problem.flow(HEAT_SHARE, true)?;
     let distances = problem.distances(&heat);
     let descent = Descent::new(&heat)?;
     let mut paths = Vec::with_capacity(ends.len());

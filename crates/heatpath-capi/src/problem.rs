@@ -9,7 +9,7 @@ use crate::status::{Failure, HP_OUT_OF_MEMORY};
 use crate::view::View;
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
-use heatpath_core::grid::heat::{Explicit, Heat};
+use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions};
 use heatpath_core::grid::medium::{self, Medium, MediumError};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources, fraction};
 
@@ -59,15 +59,16 @@ impl<const D: usize> Problem<D> {
         &self.settings.progress
     }
 
-    /// Lets heat flow; `share` is its part of all the work, for the progress.
-    pub(crate) fn flow(&self, share: f64) -> Result<Heat<D>, Failure> {
+    /// Lets heat flow; `share` is its part of all the work, for the progress. Paths need the
+    /// exposure.
+    pub(crate) fn flow(&self, share: f64, exposure: bool) -> Result<Heat<D>, Failure> {
         let exec = match self.settings.threads {
             1 => Exec::single_threaded(),
             threads => Exec::new(threads)?,
         };
         let progress = self.progress();
         let exec = exec.with_watch(|finished| progress.report(share * finished));
-        let explicit = Explicit::new(&self.medium, self.settings.heat)?;
+        let explicit = Explicit::new(&self.medium, HeatOptions { exposure, ..self.settings.heat })?;
         Ok(match self.settings.estimator {
             Estimator::Normalized => explicit.flow_balanced(&self.sources, &exec)?,
             Estimator::Varadhan => explicit.flow(&self.sources, &exec)?,

@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use crate::status::Failure;
 use crate::structs::{self, Versioned};
 use heatpath_core::Exec;
-use heatpath_core::grid::heat::{Duration, FaceMean, HeatOptions, Step};
+use heatpath_core::grid::heat::{Duration, HeatOptions, Step};
 use heatpath_core::grid::medium::{
     ConductivityOptions, EdgeStop, EdgesOptions, Form, PeronaMalikOptions,
 };
@@ -140,7 +140,7 @@ impl hp_options {
             step if step.is_nan() => Step::Usual,
             step => Step::Fixed(step),
         };
-        Ok(HeatOptions { duration, step, face_mean: FaceMean::default(), exposure: true })
+        Ok(HeatOptions { duration, step, ..HeatOptions::default() })
     }
 }
 

@@ -36,6 +36,8 @@ pub const HP_NO_THREADS: i32 = 8;
 pub const HP_UNSUPPORTED: i32 = 9;
 /// A mistake inside heatpath. The library stays usable; please report it with the message.
 pub const HP_PANIC: i32 = 10;
+/// The medium is slower in places than the range of numbers allows.
+pub const HP_RANGE: i32 = 11;
 
 /// Why a call failed.
 #[derive(Debug)]
@@ -110,6 +112,7 @@ impl From<HeatError> for Failure {
     fn from(error: HeatError) -> Self {
         let status = match error {
             HeatError::StepTooLarge { .. } => HP_UNSTABLE_STEP,
+            HeatError::Range => HP_RANGE,
             HeatError::Cancelled(cancelled) => return cancelled.into(),
             HeatError::Step(_) | HeatError::Time(_) | HeatError::Iterations(_) => {
                 HP_INVALID_ARGUMENT
@@ -172,6 +175,7 @@ fn name_of(status: hp_status) -> &'static CStr {
         HP_NO_THREADS => c"HP_NO_THREADS",
         HP_UNSUPPORTED => c"HP_UNSUPPORTED",
         HP_PANIC => c"HP_PANIC",
+        HP_RANGE => c"HP_RANGE",
         _ => c"unknown status",
     }
 }

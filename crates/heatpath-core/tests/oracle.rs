@@ -3,7 +3,7 @@
 
 use heatpath_core::Exec;
 use heatpath_core::exec::SimdLevel;
-use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
+use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatError, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources};
 use proptest::prelude::*;
@@ -238,6 +238,23 @@ fn range_without_limits() {
         // Distances are the square root of the logarithm: half of this relative error.
         assert!(worst < 1e-6, "{worst}");
     }
+}
+
+/// Wherever the range of numbers ends, heat says so; it never leaves a hole.
+#[test]
+fn a_medium_beyond_any_range_is_refused() {
+    let shape = Shape::new([40, 12]).unwrap();
+    let slow = |value: f64| {
+        let field = Grid::from_fn(shape, |[x, _]| if (10..20).contains(&x) { value } else { 1.0 });
+        let medium = medium::given(field, Form::Divergence).unwrap();
+        let sources = Sources::new(&[[3.0, 3.0]], medium.mask()).unwrap();
+        Explicit::new(&medium, HeatOptions::default())
+            .unwrap()
+            .flow(&sources, &Exec::single_threaded())
+            .map(|heat| heat.ln_temperature().values().iter().all(|ln| ln.is_finite()))
+    };
+    assert_eq!(slow(1e-12), Ok(true));
+    assert_eq!(slow(1e-100), Err(HeatError::Range));
 }
 
 proptest! {

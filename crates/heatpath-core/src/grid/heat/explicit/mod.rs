@@ -13,7 +13,7 @@ use super::{Heat, shares};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::Sources;
 use crate::grid::medium::Medium;
-use schedule::{Scheme, Tiles, Tiling};
+use schedule::{Fields, Scheme, Tiles, Tiling};
 use stencil::Stencil;
 use thiserror::Error;
 
@@ -108,6 +108,12 @@ pub enum HeatError {
     /// There are no iterations, or more than anybody could wait for.
     #[error("the number of iterations is {0:?}; it must be from 1 to 1e12")]
     Iterations(f64),
+    /// u falls by more than 578 powers of ten within a few cells.
+    #[error(
+        "the heat falls by more than 578 powers of ten within some 8 cells: the medium is too slow \
+         there; raise its floor, or make these cells walls"
+    )]
+    Range,
     /// The caller cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -184,7 +190,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// lies between them).
     ///
     /// # Errors
-    /// The caller cancelled.
+    /// The medium is slower in places than any range of numbers, or the caller cancelled.
     pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
         let amounts = vec![1.0; sources.points().len()];
         let heat =
@@ -200,7 +206,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// [`flow`](Self::flow); with several, heat flows twice: the first time to find the amounts.
     ///
     /// # Errors
-    /// The caller cancelled.
+    /// The medium is slower in places than any range of numbers, or the caller cancelled.
     pub fn flow_balanced(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
         let count = sources.points().len();
         if count == 1 {
@@ -240,18 +246,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             iterations: self.iterations,
             exposure: self.exposure,
         };
-        let mut fields = None;
-        for tiling in Tiling::all() {
-            let mut heat = Tiles::new(&shape, tiling);
-            shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
-            let marched = heat.march(&scheme, report, exec)?;
-            let is_complete = !self.has_lost_heat(marched.0.values(), &shares);
-            fields = Some(marched);
-            if is_complete {
-                break;
-            }
-        }
-        let (ln_temperature, ln_exposure) = fields.expect("there is a tiling");
+        let (ln_temperature, ln_exposure) = self.march(&scheme, &shares, report, exec)?;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
         Ok(Heat {
             sources: sources.clone(),
@@ -263,6 +258,27 @@ impl<'a, const D: usize> Explicit<'a, D> {
             iterations: self.iterations,
             step: self.step,
         })
+    }
+
+    /// Tries ever smaller tiles until they hold the range of the values.
+    fn march(
+        &self,
+        scheme: &Scheme<f64, D>,
+        shares: &[(usize, f64)],
+        report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
+        exec: &Exec,
+    ) -> Result<Fields<D>, HeatError> {
+        for tiling in Tiling::all() {
+            let mut heat = Tiles::new(self.medium.shape(), tiling);
+            shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
+            match heat.march(scheme, report, exec)? {
+                Some(fields) if !self.has_lost_heat(fields.0.values(), shares) => {
+                    return Ok(fields);
+                }
+                _ => {}
+            }
+        }
+        Err(HeatError::Range)
     }
 
     /// Whether a cell within reach has no heat: its tile had to hold too wide a range of values.

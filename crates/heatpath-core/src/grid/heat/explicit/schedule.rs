@@ -28,7 +28,7 @@ pub(super) struct Scheme<'a, T, const D: usize> {
 }
 
 /// How the grid is cut.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Tiling<const D: usize> {
     /// The cells of a tile along each axis.
     edge: [usize; D],
@@ -42,21 +42,18 @@ impl<const D: usize> Tiling<D> {
     /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
     /// they must hold a wider range of values, and in 3-D outgrow the cache.
     pub(super) fn all() -> impl Iterator<Item = Self> {
-        let (lengths, edges): (&[usize], &[usize]) =
-            if D < 3 { (&[128, 64], &[64, 32, 16, 8]) } else { (&[128, 64], &[32, 16, 8]) };
-        let long = lengths.iter().map(|&length| (length, edges[0]));
-        let cubes = edges.iter().map(|&edge| (edge, edge));
-        let mut all: Vec<_> = long.chain(cubes).collect();
-        all.dedup();
-        all.into_iter().map(|(length, edge)| Self {
+        let edges: &[usize] = if D < 3 { &[64, 32, 16, 8] } else { &[32, 16, 8] };
+        let longest = if D < 3 { None } else { Some((128, edges[0])) };
+        let others = edges.iter().flat_map(|&edge| [(2 * edge, edge), (edge, edge)]);
+        longest.into_iter().chain(others).map(|(length, edge)| Self {
             edge: std::array::from_fn(|axis| if axis == 0 { length } else { edge }),
             steps: edge / 8,
         })
     }
 }
 
-/// The margin of a window along x, in cells: at least the steps of a visit, and such that the rows
-/// of a window begin at a vector of the conductances.
+/// Where a tile begins along x in its window: at least the steps of a visit, and such that the rows
+/// of the window begin at a vector of the conductances.
 const MARGIN_X: usize = 8;
 
 /// How many powers of two the largest value of a window may lie above the top of a tile's range.
@@ -81,12 +78,17 @@ struct Temperature {
     largest: f64,
 }
 
+/// The logarithms of u and of its sum over the start and all steps.
+pub(super) type Fields<const D: usize> = (Grid<f64, D>, Option<Grid<f64, D>>);
+
 /// What a visit writes.
 #[derive(Clone, Default)]
 struct Visited {
     number: usize,
     next: Temperature,
     exposure: Scaled,
+    /// Whether a value was too small for the range of a tile.
+    has_lost: bool,
 }
 
 /// The cells from `low` up to but not including `high`.
@@ -129,13 +131,13 @@ impl<const D: usize> Tiles<D> {
         *largest = largest.max(heat.values[place]);
     }
 
-    /// Lets heat flow; returns the logarithms of u and of its sum over the start and all steps.
+    /// Lets heat flow; `None` if a tile cannot hold the range of its values.
     pub(super) fn march<T: Real>(
         mut self,
         scheme: &Scheme<T, D>,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
-    ) -> Result<(Grid<f64, D>, Option<Grid<f64, D>>), Cancelled> {
+    ) -> Result<Option<Fields<D>>, Cancelled> {
         for (visited, now) in self.visited.iter_mut().zip(&self.now) {
             if scheme.exposure {
                 visited.exposure = now.heat.clone();
@@ -152,31 +154,33 @@ impl<const D: usize> Tiles<D> {
                 let tiles = &self;
                 T::with_lanes(exec.simd(), Visit { tiles, scheme, count, tile, window });
             });
+            let mut has_lost = false;
             for (visited, now) in visited.iter_mut().zip(&mut self.now) {
                 std::mem::swap(&mut visited.next, now);
+                has_lost |= visited.has_lost;
             }
             self.visited = visited;
             done += count;
+            if has_lost {
+                return Ok(None);
+            }
         }
         let exposure: Vec<_> = self.visited.into_iter().map(|visited| visited.exposure).collect();
         let temperature = self.now.into_iter().map(|now| now.heat).collect();
         let (shape, tiling) = (self.shape, self.tiling);
         let exposure = scheme.exposure.then(|| logarithms(shape, tiling, exposure, exec));
-        Ok((logarithms(shape, tiling, temperature, exec), exposure))
+        Ok(Some((logarithms(shape, tiling, temperature, exec), exposure)))
     }
 
     /// Where a thread advances its tile.
     fn window<T: Real>(&self, scheme: &Scheme<T, D>) -> Window<T, D> {
         let Tiling { edge, steps } = self.tiling;
-        let room = std::array::from_fn(|axis| edge[axis] + 2 * self.margin(axis, steps));
+        let room =
+            std::array::from_fn(|axis| edge[axis] + 2 * if axis == 0 { MARGIN_X } else { steps });
         let mut window = Window::new(room, steps, scheme.exposure);
         window.rate.fill(T::from_f64(scheme.step));
         window.rate_is_uniform = scheme.factor.is_none();
         window
-    }
-
-    fn margin(&self, axis: usize, steps: usize) -> usize {
-        if axis == 0 { MARGIN_X } else { steps }
     }
 
     /// The cells of a tile.
@@ -192,15 +196,16 @@ impl<const D: usize> Tiles<D> {
     /// The cells of a tile and a margin for `steps` steps, as far as the grid goes.
     fn around(&self, tile: Range<D>, steps: usize) -> Range<D> {
         let size = self.shape.size();
-        let margin = |axis| self.margin(axis, steps);
         Range {
-            low: std::array::from_fn(|axis| tile.low[axis].saturating_sub(margin(axis))),
-            high: std::array::from_fn(|axis| (tile.high[axis] + margin(axis)).min(size[axis])),
+            low: tile.low.map(|i| i.saturating_sub(steps)),
+            high: std::array::from_fn(|axis| (tile.high[axis] + steps).min(size[axis])),
         }
     }
 
-    fn extent(&self, range: Range<D>) -> Extent<D> {
-        let (low, high, size) = (range.low, range.high, self.shape.size());
+    /// What a window holds for a tile and the range around it.
+    fn extent(&self, tile: Range<D>, around: Range<D>) -> Extent<D> {
+        let (mut low, high, size) = (around.low, around.high, self.shape.size());
+        low[0] = tile.low[0].saturating_sub(MARGIN_X);
         Extent {
             low,
             size: std::array::from_fn(|axis| high[axis] - low[axis]),
@@ -251,12 +256,13 @@ impl<T: Real, const D: usize> WithLanes<T> for Visit<'_, T, D> {
             tile.next.heat.values.clear();
             return;
         };
-        tiles.load(around, exponent, scheme, window);
-        window.advance(lanes, scheme.stencil, &tiles.extent(around), count);
-        tiles.store(inside, around, window, &mut tile.next);
+        let extent = tiles.extent(inside, around);
+        tiles.load(around, extent.low, exponent, scheme, window);
+        window.advance(lanes, scheme.stencil, &extent, count);
+        tile.has_lost = tiles.store(inside, extent.low, window, &mut tile.next);
         tile.next.heat.exponent = exponent;
         if scheme.exposure {
-            tiles.add_exposure(inside, around, window, exponent, &mut tile.exposure);
+            tiles.add_exposure(inside, extent.low, window, exponent, &mut tile.exposure);
         }
     }
 }
@@ -289,26 +295,31 @@ impl<const D: usize> Tiles<D> {
         exponent
     }
 
-    /// Copies a range into the window, scaled to an exponent.
+    /// Copies a range into the window that begins at `low`, scaled to an exponent.
     #[inline(always)]
     fn load<T: Real>(
         &self,
         range: Range<D>,
+        low: [usize; D],
         exponent: i32,
         scheme: &Scheme<T, D>,
         window: &mut Window<T, D>,
     ) {
         for row in range.rows() {
-            let to = window.row(range.offset(row));
-            let (end, stride) = (range.row_length(), window.row_stride());
-            window.u[to + end..to + stride].fill(T::default());
+            let (start, stride) = (window.row(offset(row, low)), window.row_stride());
+            let (to, n) = (start + row[0] - low[0], range.row_length());
+            window.u[start..to].fill(T::default());
+            window.u[to + n..start + stride].fill(T::default());
             if scheme.exposure {
-                window.sum[to..to + stride].fill(T::default());
+                window.sum[start..start + stride].fill(T::default());
             }
             if let Some(factor) = scheme.factor {
-                let rates = window.rate[to..to + end].iter_mut();
+                // No factor beyond the range: with the faces there, any other could be unstable.
+                window.rate[start..to].fill(T::default());
+                window.rate[to + n..start + stride].fill(T::default());
                 let factors = &factor.values()[self.shape.position(row)..];
-                rates.zip(factors).for_each(|(rate, k)| *rate = T::from_f64(scheme.step * k));
+                let rates = window.rate[to..to + n].iter_mut().zip(factors);
+                rates.for_each(|(rate, k)| *rate = T::from_f64(scheme.step * k));
             }
         }
         for tile in self.tiles_around(range) {
@@ -316,7 +327,7 @@ impl<const D: usize> Tiles<D> {
             let part = range.intersection(self.range_of(tile));
             let scale = Scale::new(heat.exponent.saturating_sub(exponent));
             for row in part.rows() {
-                let to = window.row(range.offset(row)) + row[0] - range.low[0];
+                let to = window.row(offset(row, low)) + row[0] - low[0];
                 let cells = &mut window.u[to..to + part.row_length()];
                 if heat.values.is_empty() {
                     cells.fill(T::default());
@@ -334,7 +345,7 @@ impl<const D: usize> Tiles<D> {
     fn add_exposure<T: Real>(
         &self,
         inside: Range<D>,
-        around: Range<D>,
+        low: [usize; D],
         window: &Window<T, D>,
         exponent: i32,
         exposure: &mut Scaled,
@@ -342,32 +353,38 @@ impl<const D: usize> Tiles<D> {
         exposure.grow(exponent, self.tile_cells());
         let scale = Scale::new(exponent - exposure.exponent);
         for row in inside.rows() {
-            let from = window.row(around.offset(row)) + row[0] - around.low[0];
+            let from = window.row(offset(row, low)) + row[0] - low[0];
             let sums = &window.sum[from..from + inside.row_length()];
             let values = exposure.values[self.place(row)..].iter_mut();
             values.zip(sums).for_each(|(value, sum)| *value += scale.apply(sum.to_f64()));
         }
     }
 
-    /// Copies the cells of a tile out of the window.
+    /// Copies the cells of a tile out of the window; says whether some were too small to be kept.
     #[inline(always)]
     fn store<T: Real>(
         &self,
         inside: Range<D>,
-        around: Range<D>,
+        low: [usize; D],
         window: &Window<T, D>,
         next: &mut Temperature,
-    ) {
+    ) -> bool {
+        let mut has_lost = false;
         next.heat.values.resize(self.tile_cells(), 0.0);
         next.largest = 0.0;
         for row in inside.rows() {
-            let from = window.row(around.offset(row)) + row[0] - around.low[0];
+            let from = window.row(offset(row, low)) + row[0] - low[0];
             let cells = &window.u[from..from + inside.row_length()];
             let to = self.place(row);
             let values = &mut next.heat.values[to..to + cells.len()];
-            values.iter_mut().zip(cells).for_each(|(value, u)| *value = trusted(u.to_f64()));
+            for (value, u) in values.iter_mut().zip(cells) {
+                let u = u.to_f64();
+                *value = trusted(u);
+                has_lost |= u > *value;
+            }
             next.largest = largest(values).max(next.largest);
         }
+        has_lost
     }
 }
 
@@ -405,12 +422,6 @@ impl<const D: usize> Range<D> {
         self.high[0] - self.low[0]
     }
 
-    /// Where a cell lies from the range's first, in cells; 0 along x, because rows begin there.
-    #[inline(always)]
-    fn offset(&self, cell: [usize; D]) -> [usize; D] {
-        std::array::from_fn(|axis| if axis == 0 { 0 } else { cell[axis] - self.low[axis] })
-    }
-
     /// The first cell of each row along x.
     #[inline(always)]
     fn rows(self) -> impl Iterator<Item = [usize; D]> {
@@ -433,4 +444,10 @@ impl<const D: usize> Range<D> {
             high: std::array::from_fn(|axis| self.high[axis].min(other.high[axis])),
         }
     }
+}
+
+/// How far a cell is from another along each axis.
+#[inline(always)]
+fn offset<const D: usize>(cell: [usize; D], low: [usize; D]) -> [usize; D] {
+    std::array::from_fn(|axis| cell[axis] - low[axis])
 }
