@@ -6,8 +6,9 @@
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
+use super::distance::matern::Matern;
 use super::distance::{DistanceMap, NOT_REACHED};
-use super::heat::Heat;
+use super::heat::{Heat, Scheme};
 use super::sample::corners;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::f64::consts::PI;
@@ -260,7 +261,13 @@ impl<const D: usize> Descent<D> {
 /// change no path, but they are close to `r^2 / 4t` near the source as well as far from it: central
 /// differences and interpolation are nearly exact for such a function, and paths come straight into
 /// the source.
+///
+/// Of implicit heat the potential is the square of the distance at which it would be as large in a
+/// uniform medium.
 fn potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
+    if heat.scheme() == Scheme::Implicit {
+        return implicit_potential(heat);
+    }
     let speeds = heat.speeds_sq.iter().zip(&heat.amounts);
     let scale =
         speeds.map(|(speed_sq, amount)| 4.0 * PI * speed_sq / amount).fold(f64::MAX, f64::min);
@@ -280,6 +287,22 @@ fn potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
         } else {
             (-2.0 * ln).exp().ln_1p()
         }
+    })
+}
+
+fn implicit_potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
+    let dimension = heat.shape().dimension();
+    let matern = Matern { dimension, steps: heat.iterations(), sum: true };
+    let highest = heat.ln_exposure().values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // Where heat is trapped around its source, there would be no such distance.
+    let strength = heat.ln_strength().max(highest - matern.ln(1e-4).0);
+    let mut last = 1.0;
+    heat.ln_exposure().map(|&ln_exposure| {
+        if ln_exposure == f64::NEG_INFINITY {
+            return f64::INFINITY;
+        }
+        last = matern.distance(ln_exposure - strength, last);
+        last * last
     })
 }
 

@@ -1,5 +1,6 @@
 //! Distances from the sources.
 
+pub(super) mod matern;
 mod varadhan;
 
 pub use varadhan::{normalized, varadhan};

@@ -1,24 +1,36 @@
 //! Heat: `u_t = k div(D grad u)` from point sources.
 //!
-//! [`Explicit`] marches in time. Its result, [`Heat`], holds two fields in logarithms, because heat
-//! decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
+//! [`Explicit`] marches in time; [`Implicit`] solves for a time at once, many sources at a time. The
+//! result, [`Heat`], holds two fields in logarithms, because heat decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
 //! temperature u at the end, and the exposure, which is u added up over all steps.
 //!
 //! Time and step are given in cell units: multiples of the smallest spacing squared, so that they
 //! do not depend on the unit of length.
 
 mod explicit;
+mod implicit;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
+pub use implicit::{Implicit, ImplicitError, ImplicitOptions};
 pub use operator::FaceMean;
 
 use super::source::shares;
 use super::{Grid, Mask, Shape, Sources};
 
+/// How heat was made to flow, and so what its logarithm says about distances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// In many small steps: u is close to the heat kernel, `exp(-distance^2 / 4t)`.
+    Explicit,
+    /// In one or a few implicit steps: u is the resolvent, `exp(-distance / sqrt(step))`.
+    Implicit,
+}
+
 /// What the heat has done.
 #[derive(Clone, Debug)]
 pub struct Heat<const D: usize> {
+    pub(crate) scheme: Scheme,
     pub(crate) sources: Sources<D>,
     pub(crate) mask: Mask<D>,
     /// The amount of heat that each source began with.
@@ -26,12 +38,19 @@ pub struct Heat<const D: usize> {
     /// The squared speed at each source.
     pub(crate) speeds_sq: Vec<f64>,
     pub(crate) ln_temperature: Grid<f64, D>,
-    pub(crate) ln_exposure: Grid<f64, D>,
+    /// `None` if it is the temperature.
+    pub(crate) ln_exposure: Option<Grid<f64, D>>,
     pub(crate) iterations: usize,
     pub(crate) step: f64,
 }
 
 impl<const D: usize> Heat<D> {
+    /// How the heat was made to flow.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
     /// The size and spacing.
     #[must_use]
     pub fn shape(&self) -> &Shape<D> {
@@ -64,9 +83,12 @@ impl<const D: usize> Heat<D> {
     /// the end, which is positive away from the sources. A cell with `L E > 0` is below the mean of
     /// its neighbours, so each has a neighbour with more exposure. Paths climb it and cannot stop
     /// short. Its logarithm has the same limit as that of u in Varadhan's formula.
+    ///
+    /// Of implicit heat the start does not count: `u' - step L u' = u` gives `step L E = u_end -
+    /// u_start` for the sum over the steps alone. After one step it is the temperature itself.
     #[must_use]
     pub fn ln_exposure(&self) -> &Grid<f64, D> {
-        &self.ln_exposure
+        self.ln_exposure.as_ref().unwrap_or(&self.ln_temperature)
     }
 
     /// The number of time steps.
@@ -85,6 +107,22 @@ impl<const D: usize> Heat<D> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.step * self.iterations as f64
+    }
+
+    /// The logarithm of the factor in front of the Matérn function, of which implicit heat is a
+    /// multiple around a source: `amount / (step speed^2)^(N/2)`, of the strongest source.
+    pub(crate) fn ln_strength(&self) -> f64 {
+        let (shape, unit) = (self.shape(), self.shape().smallest_spacing());
+        let dimension = shape.dimension() as f64;
+        let volume: f64 = (0..D)
+            .filter(|&axis| shape.size()[axis] > 1)
+            .map(|axis| (shape.spacing()[axis] / unit).ln())
+            .sum();
+        let sources = self.amounts.iter().zip(&self.speeds_sq);
+        sources
+            .map(|(amount, speed)| amount.ln() - 0.5 * dimension * (self.step * speed).ln())
+            .fold(f64::NEG_INFINITY, f64::max)
+            + volume
     }
 
     /// The logarithm of the temperature at each source.

@@ -53,6 +53,16 @@ impl<const D: usize> Operator<D> {
         }
     }
 
+    /// The conductance of the face between the cell at `cell` and the one before it along `axis`.
+    pub(super) fn conductance(&self, axis: usize, cell: usize) -> f64 {
+        self.faces[axis][cell]
+    }
+
+    /// The factor k of a cell.
+    pub(super) fn factor_of(&self, cell: usize) -> f64 {
+        self.factor.as_ref().map_or(1.0, |factor| factor[cell])
+    }
+
     /// The largest time step, in cell units, at which explicit heat stays positive and stable:
     /// one over the largest `k x sum of conductances` of any cell.
     ///

@@ -8,7 +8,7 @@ mod scaled;
 mod schedule;
 
 use super::operator::{FaceMean, Operator};
-use super::{Heat, shares};
+use super::{Heat, Scheme, shares};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Sources};
@@ -220,12 +220,13 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let (ln_temperature, ln_exposure) = fields;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
         Ok(Heat {
+            scheme: Scheme::Explicit,
             sources: sources.clone(),
             mask: mask.clone(),
             amounts,
             speeds_sq: sources.points().iter().map(|p| self.medium.speed_sq(cell(p))).collect(),
             ln_temperature: Grid::from_fn(shape, |i| ln_temperature[shape.position(i)]),
-            ln_exposure: Grid::from_fn(shape, |i| ln_exposure[shape.position(i)]),
+            ln_exposure: Some(Grid::from_fn(shape, |i| ln_exposure[shape.position(i)])),
             iterations: self.iterations,
             step: self.step,
         })

@@ -1,0 +1,381 @@
+//! Implicit Euler: `(1 - step k div(D grad)) u' = u`, solved directly.
+//!
+//! Written as `(1/k + step L) u' = u / k` with `L = -div(D grad)` the matrix is symmetric and
+//! positive definite, and none of its entries off the diagonal is positive (an M-matrix). Nothing
+//! cancels in its factorisation or in the solution, so u is positive and accurate to its last bits
+//! in every cell, however small. That is what logarithms need: iterative solvers, whose residual is
+//! small, leave most cells without a correct digit.
+
+mod order;
+
+use super::operator::{FaceMean, Operator};
+use super::{Heat, Scheme, shares};
+use crate::exec::{Cancelled, Exec};
+use crate::grid::medium::Medium;
+use crate::grid::{Grid, Sources};
+use crate::linear::{Analysis, Cholesky, Entries, LinearError, Wide};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// The parameters of [`Implicit`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImplicitOptions {
+    /// How long heat flows, in cell units (multiples of the smallest spacing squared). Above 0, at
+    /// most [a thousand million](ImplicitError::TooLong) times the largest stable step of explicit
+    /// heat; default 16.
+    pub time: f64,
+    /// The number of steps that the time is divided into. From 1 to 1000; default 1.
+    pub steps: usize,
+    /// How the diffusion coefficient of a face is made from its two cells.
+    pub face_mean: FaceMean,
+    /// The most memory that the factorisation may take, in bytes; default 4 GiB.
+    pub memory_limit: usize,
+}
+
+impl Default for ImplicitOptions {
+    fn default() -> Self {
+        Self { time: 16.0, steps: 1, face_mean: FaceMean::default(), memory_limit: 4 << 30 }
+    }
+}
+
+/// The most steps that make sense: beyond them explicit heat is faster.
+const MOST_STEPS: usize = 1000;
+
+/// The longest step over the largest stable one of explicit heat: as many times larger are the
+/// rounding errors.
+const LONGEST_STEP: f64 = 1e9;
+
+/// Why implicit heat cannot flow as asked.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ImplicitError {
+    /// The time is not a positive number.
+    #[error("the time is {0}; it must be a positive finite number")]
+    Time(f64),
+    /// The time is so long that rounding would spoil the heat.
+    #[error("the time {time} is too long for this medium; at most {longest} is possible")]
+    TooLong {
+        /// The time asked for, in cell units.
+        time: f64,
+        /// The longest possible, in cell units.
+        longest: f64,
+    },
+    /// There are no steps, or more than make sense.
+    #[error("the number of steps is {0}; it must be from 1 to 1000")]
+    Steps(usize),
+    /// The grid is too large to factor.
+    #[error("{0}; a larger grid than that needs explicit heat, which takes some 50 bytes a cell")]
+    TooLarge(LinearError),
+    /// The time is too short for the medium.
+    #[error(
+        "after a time of {time} the heat is too small, by thousands of orders of magnitude, across \
+         a part of this medium: take a longer time or explicit heat"
+    )]
+    TooShort {
+        /// The time, in cell units.
+        time: f64,
+    },
+    /// The system cannot be solved.
+    #[error(transparent)]
+    Linear(LinearError),
+    /// The caller cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Implicit heat in one medium, factored once for any number of sources.
+///
+/// One step of any length costs one pass through the factor, whatever the medium, and there is no
+/// stable step to keep: distances from many sources in one picture are much cheaper than by
+/// [`Explicit`](super::Explicit) heat. The factor takes memory, some 550 bytes a cell for a picture
+/// of 512 x 512 cells and growing with the logarithm of its side, and much more for volumes.
+///
+/// ```
+/// use heatpath_core::Exec;
+/// use heatpath_core::grid::distance::normalized;
+/// use heatpath_core::grid::heat::{Implicit, ImplicitOptions};
+/// use heatpath_core::grid::{Shape, Sources, medium};
+///
+/// let medium = medium::uniform(Shape::new([64, 48])?);
+/// let exec = Exec::single_threaded();
+/// let implicit = Implicit::new(&medium, ImplicitOptions::default(), &exec)?;
+/// let sources = Sources::new(&[[20.0, 20.0]], medium.mask())?;
+/// let distances = normalized(&implicit.flow(&sources, &exec)?);
+/// assert!((distances.at([50.0, 20.0]) - 30.0).abs() < 0.15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Implicit<'a, const D: usize> {
+    medium: &'a Medium<D>,
+    operator: Operator<D>,
+    /// The open cells in the order of elimination.
+    cells: Vec<usize>,
+    /// The place of each cell in that order.
+    places: Vec<usize>,
+    cholesky: Cholesky,
+    step: f64,
+    steps: usize,
+}
+
+impl<'a, const D: usize> Implicit<'a, D> {
+    /// Prepares heat in `medium`: analyses and factors the system.
+    ///
+    /// # Errors
+    /// A time or number of steps out of range; more memory than allowed, in which case the message
+    /// names both and nothing of that size was allocated; a time so short for the medium that
+    /// the factor leaves the range of f64; or the caller cancelled.
+    pub fn new(
+        medium: &'a Medium<D>,
+        options: ImplicitOptions,
+        exec: &Exec,
+    ) -> Result<Self, ImplicitError> {
+        let operator = Operator::new(medium, options.face_mean);
+        let step = step(options.time, options.steps, operator.largest_stable_step(medium.shape()))?;
+        let cells = order::nested_dissection(medium.mask());
+        let mut places = vec![0; medium.shape().cells()];
+        cells.iter().enumerate().for_each(|(place, &cell)| places[cell] = place);
+        let couplings = faces(medium)
+            .map(|(axis, cell)| [places[cell], places[cell - medium.shape().stride(axis)]])
+            .collect();
+        let explained = |error| explained(error, options.time);
+        let analysis =
+            Analysis::new(cells.len(), couplings, options.memory_limit).map_err(explained)?;
+        let (diagonal, couplings) = matrix(medium, &operator, &cells, step);
+        let cholesky =
+            Cholesky::new(Arc::new(analysis), &diagonal, &couplings, exec).map_err(explained)?;
+        Ok(Self { medium, operator, cells, places, cholesky, step, steps: options.steps })
+    }
+
+    /// The same medium with another time (in cell units) and number of steps.
+    ///
+    /// The system is factored again in the same memory, but not analysed again.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new); nothing is left then.
+    pub fn with_time(
+        mut self,
+        time: f64,
+        steps: usize,
+        exec: &Exec,
+    ) -> Result<Self, ImplicitError> {
+        let medium = self.medium;
+        self.step = step(time, steps, self.operator.largest_stable_step(medium.shape()))?;
+        self.steps = steps;
+        let (diagonal, couplings) = matrix(medium, &self.operator, &self.cells, self.step);
+        self.cholesky
+            .refactor(&diagonal, &couplings, exec)
+            .map_err(|error| explained(error, time))?;
+        Ok(self)
+    }
+
+    /// The number of time steps.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.steps
+    }
+
+    /// The time step in cell units.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The memory that the factorisation takes, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.cholesky.analysis().bytes()
+    }
+
+    /// Lets heat flow from `sources`, which all begin with u = 1 (shared between cells if a source
+    /// lies between them).
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, ImplicitError> {
+        self.flow_amounts(&[(sources, vec![1.0; sources.points().len()])], exec)
+            .map(|mut heats| heats.remove(0))
+    }
+
+    /// Lets heat flow from each of several sets of sources, as [`flow`](Self::flow) would from one
+    /// after the other.
+    ///
+    /// The sets are shared between the threads, and several at a time go through the factor
+    /// together.
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    pub fn flow_many(
+        &self,
+        sets: &[Sources<D>],
+        exec: &Exec,
+    ) -> Result<Vec<Heat<D>>, ImplicitError> {
+        let amounts = |sources: &Sources<D>| vec![1.0; sources.points().len()];
+        let sets: Vec<_> = sets.iter().map(|sources| (sources, amounts(sources))).collect();
+        self.flow_amounts(&sets, exec)
+    }
+
+    /// Lets heat flow from `sources`, with amounts that make them equally strong.
+    ///
+    /// Heat from a source in a fast region is spread thin and would seem further away. Around a
+    /// source the heat is its amount over the N-th power of the speed there, times a function of
+    /// the distance: so the amounts are chosen as that power. With one source this is
+    /// [`flow`](Self::flow).
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    pub fn flow_balanced(
+        &self,
+        sources: &Sources<D>,
+        exec: &Exec,
+    ) -> Result<Heat<D>, ImplicitError> {
+        let speeds_sq = self.speeds_sq(sources);
+        let fastest = speeds_sq.iter().copied().fold(0.0, f64::max);
+        let power = 0.5 * self.medium.shape().dimension() as f64;
+        let amounts = speeds_sq.iter().map(|speed| (speed / fastest).powf(power)).collect();
+        self.flow_amounts(&[(sources, amounts)], exec).map(|mut heats| heats.remove(0))
+    }
+
+    fn speeds_sq(&self, sources: &Sources<D>) -> Vec<f64> {
+        let shape = self.medium.shape();
+        let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
+        sources.points().iter().map(|point| self.medium.speed_sq(cell(point))).collect()
+    }
+
+    fn flow_amounts(
+        &self,
+        sets: &[(&Sources<D>, Vec<f64>)],
+        exec: &Exec,
+    ) -> Result<Vec<Heat<D>>, ImplicitError> {
+        let mut sides: Vec<Entries> =
+            sets.iter().map(|(sources, amounts)| self.start(sources, amounts)).collect();
+        let mut exposures: Vec<Option<Vec<Wide>>> = vec![None; sets.len()];
+        for _ in 1..self.steps {
+            let solutions = self.solve(&sides, exec)?;
+            for ((side, exposure), u) in sides.iter_mut().zip(&mut exposures).zip(solutions) {
+                *side = u.iter().enumerate().map(|(i, &u)| (i, self.over_factor(i, u))).collect();
+                *exposure = Some(match exposure.take() {
+                    Some(sum) => sum.iter().zip(&u).map(|(sum, &u)| sum.plus(u)).collect(),
+                    None => u,
+                });
+            }
+        }
+        let solutions = self.solve(&sides, exec)?;
+        let heats = sets.iter().zip(exposures).zip(solutions);
+        let heats = heats
+            .map(|(((sources, amounts), exposure), u)| {
+                let exposure = exposure.map(|sum| {
+                    self.ln(&sum.iter().zip(&u).map(|(sum, &u)| sum.plus(u)).collect::<Vec<_>>())
+                });
+                self.heat(sources, amounts, self.ln(&u), exposure)
+            })
+            .collect();
+        exec.report(1.0)?;
+        Ok(heats)
+    }
+
+    /// The right-hand side of the first step.
+    fn start(&self, sources: &Sources<D>, amounts: &[f64]) -> Entries {
+        let mut entries = Entries::new();
+        for (&point, &amount) in sources.points().iter().zip(amounts) {
+            for (cell, weight) in shares(self.medium.mask(), point) {
+                let place = self.places[cell];
+                entries.push((place, self.over_factor(place, Wide::from(amount * weight))));
+            }
+        }
+        entries
+    }
+
+    /// `u / k` at a place.
+    fn over_factor(&self, place: usize, u: Wide) -> Wide {
+        u.times(1.0 / self.operator.factor_of(self.cells[place]))
+    }
+
+    fn solve(&self, sides: &[Entries], exec: &Exec) -> Result<Vec<Vec<Wide>>, ImplicitError> {
+        self.cholesky.solve(sides, exec).map_err(|error| explained(error, self.step))
+    }
+
+    /// The logarithms of values in the order of elimination, as a grid.
+    fn ln(&self, values: &[Wide]) -> Grid<f64, D> {
+        let mut grid = Grid::from_fn(*self.medium.shape(), |_| f64::NEG_INFINITY);
+        self.cells.iter().zip(values).for_each(|(&cell, u)| grid.values_mut()[cell] = u.ln());
+        grid
+    }
+
+    fn heat(
+        &self,
+        sources: &Sources<D>,
+        amounts: &[f64],
+        ln_temperature: Grid<f64, D>,
+        ln_exposure: Option<Grid<f64, D>>,
+    ) -> Heat<D> {
+        Heat {
+            scheme: Scheme::Implicit,
+            sources: sources.clone(),
+            mask: self.medium.mask().clone(),
+            amounts: amounts.to_vec(),
+            speeds_sq: self.speeds_sq(sources),
+            ln_temperature,
+            ln_exposure,
+            iterations: self.steps,
+            step: self.step,
+        }
+    }
+}
+
+/// The faces between open cells: the axis, and the cell after the face.
+fn faces<const D: usize>(medium: &Medium<D>) -> impl Iterator<Item = (usize, usize)> + '_ {
+    let (shape, mask) = (*medium.shape(), medium.mask());
+    (0..D).flat_map(move |axis| {
+        let stride = shape.stride(axis);
+        (stride..shape.cells())
+            .filter(move |&cell| {
+                shape.index(cell)[axis] > 0 && mask.is_open(cell) && mask.is_open(cell - stride)
+            })
+            .map(move |cell| (axis, cell))
+    })
+}
+
+/// The diagonal of `1/k + step L` in the order of `cells`, and its entries for all faces.
+fn matrix<const D: usize>(
+    medium: &Medium<D>,
+    operator: &Operator<D>,
+    cells: &[usize],
+    step: f64,
+) -> (Vec<f64>, Vec<f64>) {
+    let mut diagonal: Vec<f64> =
+        (0..medium.shape().cells()).map(|cell| 1.0 / operator.factor_of(cell)).collect();
+    let couplings = faces(medium)
+        .map(|(axis, cell)| {
+            let weight = step * operator.conductance(axis, cell);
+            diagonal[cell] += weight;
+            diagonal[cell - medium.shape().stride(axis)] += weight;
+            -weight
+        })
+        .collect();
+    (cells.iter().map(|&cell| diagonal[cell]).collect(), couplings)
+}
+
+/// The length of a step, if it makes sense in a medium with this largest stable explicit step.
+fn step(time: f64, steps: usize, largest_stable: f64) -> Result<f64, ImplicitError> {
+    if !(1..=MOST_STEPS).contains(&steps) {
+        return Err(ImplicitError::Steps(steps));
+    }
+    if !(time.is_finite() && time > 0.0) {
+        return Err(ImplicitError::Time(time));
+    }
+    let (step, longest) = (time / steps as f64, LONGEST_STEP * largest_stable);
+    if step > longest {
+        return Err(ImplicitError::TooLong { time, longest: longest * steps as f64 });
+    }
+    Ok(step)
+}
+
+fn explained(error: LinearError, time: f64) -> ImplicitError {
+    match error {
+        LinearError::Cancelled(cancelled) => ImplicitError::Cancelled(cancelled),
+        LinearError::Range => ImplicitError::TooShort { time },
+        LinearError::TooLarge { .. } | LinearError::OutOfMemory(_) => {
+            ImplicitError::TooLarge(error)
+        }
+        error => ImplicitError::Linear(error),
+    }
+}
