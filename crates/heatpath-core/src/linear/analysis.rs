@@ -10,6 +10,8 @@ use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 pub struct Analysis {
     couplings: Vec<[usize; 2]>,
     pub(super) factor: supernodal::SymbolicSupernodalCholesky<usize>,
+    /// The number of entries of the factor, those that its blocks hold for nothing not counted.
+    pub(super) entries: usize,
     limit: usize,
 }
 
@@ -66,7 +68,7 @@ impl Analysis {
             Default::default(),
         )
         .map_err(|_| LinearError::OutOfMemory(entries))?;
-        let analysis = Self { couplings, factor, limit };
+        let analysis = Self { couplings, factor, entries, limit };
         within(analysis.bytes())?;
         Ok(analysis)
     }
@@ -75,8 +77,8 @@ impl Analysis {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.factor.len_val() * size_of::<f64>()
-            + self.factor.row_idx().len() * size_of::<usize>()
-            + (self.couplings.len() + self.unknowns()) * (size_of::<f64>() + size_of::<usize>())
+            + size_of_val(self.factor.row_idx())
+            + (self.couplings.len() + self.unknowns()) * 3 * size_of::<f64>()
     }
 
     /// The most memory that was allowed, in bytes.

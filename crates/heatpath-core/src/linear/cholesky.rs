@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// The diagonal of the scaled matrix is near two to this power.
 const TOP: i32 = 1000;
 
-/// Entries of the factor below this have lost bits, or others have been lost beside them.
+/// Entries of the factor below this have lost bits.
 const SMALLEST: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
 
 /// The Cholesky factor `L` of a symmetric positive definite matrix `A = L L'`.
@@ -22,7 +22,8 @@ const SMALLEST: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
 /// What is factored is `S A S`, where S is diagonal and holds powers of two such that the diagonal
 /// of `S A S` lies between 2^1000 and 2^1002. No bit is rounded by that. The entries of the factor
 /// fall like heat does, across the width of the largest part that is cut out; from 2^501 down to
-/// 2^-960 they are trusted, which is twice what they could span without S.
+/// 2^-960 they are trusted, which is twice what they could span without S. Smaller ones are set to
+/// zero: they are [`lost`](Self::lost), and [`solve`](Self::solve) makes up for them.
 #[derive(Debug)]
 pub struct Cholesky {
     pub(super) analysis: Arc<Analysis>,
@@ -30,21 +31,31 @@ pub struct Cholesky {
     pub(super) values: Vec<f64>,
     /// The exponents of S.
     pub(super) scales: Vec<i32>,
+    pub(super) diagonal: Vec<f64>,
+    pub(super) couplings: Vec<f64>,
+    lost: usize,
 }
 
 impl Cholesky {
     /// Factors the matrix with these values: those of the diagonal, and one for each coupling.
     ///
     /// # Errors
-    /// There are more or fewer values than in the pattern, the matrix is not positive definite,
-    /// its factor leaves the range of f64, or there is not enough memory.
+    /// There are more or fewer values than in the pattern, the matrix is not positive definite, or
+    /// there is not enough memory.
     pub fn new(
         analysis: Arc<Analysis>,
         diagonal: &[f64],
         couplings: &[f64],
         exec: &Exec,
     ) -> Result<Self, LinearError> {
-        let mut cholesky = Self { analysis, values: Vec::new(), scales: Vec::new() };
+        let mut cholesky = Self {
+            analysis,
+            values: Vec::new(),
+            scales: Vec::new(),
+            diagonal: Vec::new(),
+            couplings: Vec::new(),
+            lost: 0,
+        };
         cholesky.refactor(diagonal, couplings, exec)?;
         Ok(cholesky)
     }
@@ -91,8 +102,28 @@ impl Cholesky {
             Spec::default(),
         )
         .map_err(|NonPositivePivot { index }| LinearError::NotPositiveDefinite(index))?;
-        let lost = |value: &f64| *value != 0.0 && value.abs() < SMALLEST;
-        if self.values.iter().any(lost) { Err(LinearError::Range) } else { Ok(()) }
+        let tiny = |value: &&mut f64| value.abs() < SMALLEST;
+        self.values.iter_mut().filter(tiny).for_each(|value| *value = 0.0);
+        self.lost = analysis.entries.saturating_sub(self.kept());
+        (self.diagonal, self.couplings) = (diagonal.to_vec(), couplings.to_vec());
+        Ok(())
+    }
+
+    /// How many entries are not zero. Above the diagonal the blocks hold anything.
+    fn kept(&self) -> usize {
+        let blocks = (0..self.analysis.factor.n_supernodes()).map(|number| self.block(number));
+        let columns = blocks.flat_map(|block| {
+            (0..block.width())
+                .map(move |j| block.column(j)[j..].iter().filter(|&&x| x != 0.0).count())
+        });
+        columns.sum()
+    }
+
+    /// How many entries of the factor are zero because they are too small for f64, or because
+    /// couplings are zero.
+    #[must_use]
+    pub fn lost(&self) -> usize {
+        self.lost
     }
 
     /// The lower triangle of `S A S`, column by column: where each column starts, rows, values.

@@ -24,6 +24,7 @@
 
 mod analysis;
 mod cholesky;
+mod refine;
 mod solve;
 mod wide;
 
@@ -40,9 +41,9 @@ use thiserror::Error;
 pub enum LinearError {
     /// The factor takes more memory than allowed; nothing of that size was allocated.
     #[error(
-        "the factorisation needs {:.1} GiB of memory, {:.1} GiB are allowed",
-        gibibytes(*.needed),
-        gibibytes(*.limit)
+        "the factorisation needs {} of memory, {} are allowed",
+        readable(*.needed),
+        readable(*.limit)
     )]
     TooLarge {
         /// The bytes needed, or a part of them that is already too much.
@@ -51,7 +52,7 @@ pub enum LinearError {
         limit: usize,
     },
     /// The operating system refused the memory.
-    #[error("{:.1} GiB of memory for the factorisation are not available", gibibytes(*.0))]
+    #[error("{} of memory for the factorisation are not available", readable(*.0))]
     OutOfMemory(usize),
     /// A coupling is not between two different unknowns.
     #[error(
@@ -79,14 +80,16 @@ pub enum LinearError {
     /// positive.
     #[error("the matrix is not positive definite at unknown {0}")]
     NotPositiveDefinite(usize),
-    /// Two unknowns influence each other so little that the factor cannot hold it.
-    #[error("the entries of the factor fall below the smallest number that can be trusted")]
-    Range,
     /// The caller cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-fn gibibytes(bytes: usize) -> f64 {
-    bytes as f64 / f64::from(1 << 30)
+fn readable(bytes: usize) -> String {
+    let mebibytes = bytes as f64 / f64::from(1 << 20);
+    if mebibytes < 1024.0 {
+        format!("{mebibytes:.1} MiB")
+    } else {
+        format!("{:.1} GiB", mebibytes / 1024.0)
+    }
 }

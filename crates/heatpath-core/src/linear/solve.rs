@@ -36,7 +36,7 @@ impl Cholesky {
     ///
     /// With a matrix whose entries off the diagonal are not positive and right-hand sides that are
     /// not negative, nothing cancels, and every value of every solution is accurate to its last
-    /// few bits. The result does not depend on the number of threads.
+    /// few bits, however small. The result does not depend on the number of threads.
     ///
     /// # Errors
     /// The caller cancelled.
@@ -51,7 +51,7 @@ impl Cholesky {
                 &mut batches,
                 || (),
                 |(), (batch, solved)| {
-                    *solved = self.solve_batch(batch, exec.simd());
+                    *solved = self.solve_refined(batch, exec.simd());
                 },
             );
             solutions.extend(batches.into_iter().flat_map(|(_, solved)| solved));
@@ -59,7 +59,7 @@ impl Cholesky {
         Ok(solutions)
     }
 
-    fn solve_batch(&self, sides: &[Entries], simd: SimdLevel) -> Vec<Vec<Wide>> {
+    pub(super) fn solve_batch(&self, sides: &[Entries], simd: SimdLevel) -> Vec<Vec<Wide>> {
         let mut solutions: Vec<Vec<Wide>> =
             sides.iter().map(|side| self.forward(side, simd)).collect();
         let mut scratch = vec![Below::default(); sides.len()];
@@ -86,7 +86,7 @@ impl Cholesky {
         y
     }
 
-    fn block(&self, number: usize) -> Block<'_> {
+    pub(super) fn block(&self, number: usize) -> Block<'_> {
         let factor = &self.analysis.factor;
         let (start, end) = (factor.supernode_begin()[number], factor.supernode_end()[number]);
         let places = factor.col_ptr_for_val();
@@ -122,7 +122,7 @@ impl Analysis {
 }
 
 /// Neighbouring columns of the factor of like pattern.
-struct Block<'a> {
+pub(super) struct Block<'a> {
     /// The unknowns of the columns.
     start: usize,
     end: usize,
@@ -133,13 +133,13 @@ struct Block<'a> {
     values: &'a [f64],
 }
 
-impl Block<'_> {
-    fn width(&self) -> usize {
+impl<'a> Block<'a> {
+    pub(super) fn width(&self) -> usize {
         self.end - self.start
     }
 
     #[inline(always)]
-    fn column(&self, column: usize) -> &[f64] {
+    pub(super) fn column(&self, column: usize) -> &'a [f64] {
         &self.values[column * self.height..][..self.height]
     }
 
@@ -179,9 +179,9 @@ impl Block<'_> {
         }
         for band in &bands.0 {
             sums.fill(0.0);
-            for j in band.start..band.end {
+            for (j, value) in (band.start..band.end).zip(&values[band.start..]) {
                 let column = &self.column(first + j)[first + solved.len()..];
-                sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * values[j]);
+                sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * value);
             }
             for (i, &sum) in sums.iter().enumerate() {
                 let row = &mut y[self.unknown(first + solved.len() + i)];

@@ -90,6 +90,11 @@ impl Wide {
         Self::new(large.value + small.value * power_of_two(-apart), large.exponent)
     }
 
+    /// Whether the number is positive and larger than `other`, which is not negative.
+    pub(super) fn is_above(self, other: Self) -> bool {
+        self.value > 0.0 && (self.exponent, self.value) > (other.exponent, other.value)
+    }
+
     /// The natural logarithm; minus infinity for zero.
     #[must_use]
     pub fn ln(self) -> f64 {

@@ -65,15 +65,6 @@ pub enum ImplicitError {
     /// The grid is too large to factor.
     #[error("{0}; a larger grid than that needs explicit heat, which takes some 50 bytes a cell")]
     TooLarge(LinearError),
-    /// The time is too short for the medium.
-    #[error(
-        "after a time of {time} the heat is too small, by thousands of orders of magnitude, across \
-         a part of this medium: take a longer time or explicit heat"
-    )]
-    TooShort {
-        /// The time, in cell units.
-        time: f64,
-    },
     /// The system cannot be solved.
     #[error(transparent)]
     Linear(LinearError),
@@ -121,8 +112,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
     ///
     /// # Errors
     /// A time or number of steps out of range; more memory than allowed, in which case the message
-    /// names both and nothing of that size was allocated; a time so short for the medium that
-    /// the factor leaves the range of f64; or the caller cancelled.
+    /// names both and nothing of that size was allocated; or the caller cancelled.
     pub fn new(
         medium: &'a Medium<D>,
         options: ImplicitOptions,
@@ -136,7 +126,6 @@ impl<'a, const D: usize> Implicit<'a, D> {
         let couplings = faces(medium)
             .map(|(axis, cell)| [places[cell], places[cell - medium.shape().stride(axis)]])
             .collect();
-        let explained = |error| explained(error, options.time);
         let analysis =
             Analysis::new(cells.len(), couplings, options.memory_limit).map_err(explained)?;
         let (diagonal, couplings) = matrix(medium, &operator, &cells, step);
@@ -161,9 +150,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
         self.step = step(time, steps, self.operator.largest_stable_step(medium.shape()))?;
         self.steps = steps;
         let (diagonal, couplings) = matrix(medium, &self.operator, &self.cells, self.step);
-        self.cholesky
-            .refactor(&diagonal, &couplings, exec)
-            .map_err(|error| explained(error, time))?;
+        self.cholesky.refactor(&diagonal, &couplings, exec).map_err(explained)?;
         Ok(self)
     }
 
@@ -183,6 +170,16 @@ impl<'a, const D: usize> Implicit<'a, D> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.cholesky.analysis().bytes()
+    }
+
+    /// How many entries of the factor are too small for f64, across half of a large grid or slow
+    /// medium.
+    ///
+    /// If there are any, heat is corrected until nothing is missing: right all the same, but
+    /// several times slower.
+    #[must_use]
+    pub fn lost(&self) -> usize {
+        self.cholesky.lost()
     }
 
     /// Lets heat flow from `sources`, which all begin with u = 1 (shared between cells if a source
@@ -290,7 +287,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
     }
 
     fn solve(&self, sides: &[Entries], exec: &Exec) -> Result<Vec<Vec<Wide>>, ImplicitError> {
-        self.cholesky.solve(sides, exec).map_err(|error| explained(error, self.step))
+        self.cholesky.solve(sides, exec).map_err(explained)
     }
 
     /// The logarithms of values in the order of elimination, as a grid.
@@ -369,10 +366,9 @@ fn step(time: f64, steps: usize, largest_stable: f64) -> Result<f64, ImplicitErr
     Ok(step)
 }
 
-fn explained(error: LinearError, time: f64) -> ImplicitError {
+fn explained(error: LinearError) -> ImplicitError {
     match error {
         LinearError::Cancelled(cancelled) => ImplicitError::Cancelled(cancelled),
-        LinearError::Range => ImplicitError::TooShort { time },
         LinearError::TooLarge { .. } | LinearError::OutOfMemory(_) => {
             ImplicitError::TooLarge(error)
         }
