@@ -295,7 +295,7 @@ fn implicit_potential<const D: usize>(heat: &Heat<D>) -> Grid<f64, D> {
     let matern = Matern { dimension, steps: heat.iterations(), sum: true };
     let highest = heat.ln_exposure().values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // Where heat is trapped around its source, there would be no such distance.
-    let strength = heat.ln_strength().max(highest - matern.ln(1e-4).0);
+    let strength = heat.ln_reference().max(highest - matern.ln(1e-4).0);
     let mut last = 1.0;
     heat.ln_exposure().map(|&ln_exposure| {
         if ln_exposure == f64::NEG_INFINITY {

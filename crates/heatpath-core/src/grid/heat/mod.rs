@@ -17,6 +17,7 @@ pub use operator::FaceMean;
 
 use super::source::shares;
 use super::{Grid, Mask, Shape, Sources};
+use crate::Exec;
 
 /// How heat was made to flow, and so what its logarithm says about distances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,34 @@ pub enum Scheme {
     Explicit,
     /// In one or a few implicit steps: u is the resolvent, `exp(-distance / sqrt(step))`.
     Implicit,
+}
+
+/// Heat in a prepared medium, from any sources: [`Explicit`] and [`Implicit`].
+pub trait HeatSolver<const D: usize> {
+    /// Why heat cannot flow.
+    type Error;
+
+    /// Lets heat flow from each of several sets of sources by itself.
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, Self::Error>;
+}
+
+impl<const D: usize> HeatSolver<D> for Explicit<'_, D> {
+    type Error = HeatError;
+
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, HeatError> {
+        sets.iter().map(|sources| self.flow(sources, exec)).collect()
+    }
+}
+
+impl<const D: usize> HeatSolver<D> for Implicit<'_, D> {
+    type Error = ImplicitError;
+
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, ImplicitError> {
+        self.flow_many(sets, exec)
+    }
 }
 
 /// What the heat has done.
@@ -109,20 +138,31 @@ impl<const D: usize> Heat<D> {
         self.step * self.iterations as f64
     }
 
-    /// The logarithm of the factor in front of the Matérn function, of which implicit heat is a
-    /// multiple around a source: `amount / (step speed^2)^(N/2)`, of the strongest source.
-    pub(crate) fn ln_strength(&self) -> f64 {
+    /// The logarithm of what u is compared with: of explicit heat the temperature at the warmest
+    /// source, of implicit heat the factor in front of the Matérn function around the strongest one,
+    /// `amount / (step speed^2)^(N/2)`.
+    pub(crate) fn ln_reference(&self) -> f64 {
+        match self.scheme {
+            Scheme::Explicit => {
+                self.ln_temperature_at_sources().into_iter().fold(f64::NEG_INFINITY, f64::max)
+            }
+            Scheme::Implicit => self.ln_strength(),
+        }
+    }
+
+    fn ln_strength(&self) -> f64 {
         let (shape, unit) = (self.shape(), self.shape().smallest_spacing());
         let dimension = shape.dimension() as f64;
-        let volume: f64 = (0..D)
+        // Axes with one cell do not count.
+        let ln_volume: f64 = (0..D)
             .filter(|&axis| shape.size()[axis] > 1)
             .map(|axis| (shape.spacing()[axis] / unit).ln())
             .sum();
         let sources = self.amounts.iter().zip(&self.speeds_sq);
         sources
-            .map(|(amount, speed)| amount.ln() - 0.5 * dimension * (self.step * speed).ln())
+            .map(|(amount, speed_sq)| amount.ln() - 0.5 * dimension * (self.step * speed_sq).ln())
             .fold(f64::NEG_INFINITY, f64::max)
-            + volume
+            + ln_volume
     }
 
     /// The logarithm of the temperature at each source.
