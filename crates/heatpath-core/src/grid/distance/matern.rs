@@ -55,7 +55,8 @@ impl Matern {
             if next < SMALLEST {
                 return 0.0;
             }
-            if (next - r).abs() <= 1e-12 * r {
+            // The next step would be the square of this one.
+            if (next - r).abs() <= 1e-7 * r {
                 return next;
             }
             r = next;

@@ -12,7 +12,7 @@ use crate::grid::heat::HeatSolver;
 /// [`normalized`](super::normalized) at the points `to` only. With
 /// [`Implicit`](crate::grid::heat::Implicit) heat this is the fast way to many distances in one
 /// medium. Points that heat does not reach are at [`NOT_REACHED`](super::NOT_REACHED). Memory: the
-/// heat of some 16 sources for each thread at a time.
+/// heat of 8 sources for each thread at a time.
 ///
 /// From a to b is as far as from b to a, to the last few bits, for implicit heat in the medium
 /// `k laplace(u)` of a picture and points on cell centres; otherwise to the accuracy of the
@@ -43,7 +43,7 @@ pub fn distance_matrix<S: HeatSolver<D>, const D: usize>(
     exec: &Exec,
 ) -> Result<Vec<Vec<f64>>, S::Error> {
     let mut rows = Vec::with_capacity(from.points().len());
-    for round in from.each().chunks(16 * exec.threads()) {
+    for round in from.each().chunks(8 * exec.threads()) {
         let heats = solver.flow_each(round, exec)?;
         rows.extend(heats.iter().map(|heat| normalized_at(heat, to.points())));
     }

@@ -6,72 +6,21 @@
 //! in every cell, however small. That is what logarithms need: iterative solvers, whose residual is
 //! small, leave most cells without a correct digit.
 
+mod options;
 mod order;
+mod system;
 
-use super::operator::{FaceMean, Operator};
+pub use options::{ImplicitError, ImplicitOptions};
+
+use super::operator::Operator;
 use super::{Heat, Scheme, shares};
-use crate::exec::{Cancelled, Exec};
+use crate::exec::Exec;
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Sources};
-use crate::linear::{Analysis, Cholesky, Entries, LinearError, Wide};
+use crate::linear::{Analysis, Cholesky, Entries, Wide};
+use options::{explained, step};
 use std::sync::Arc;
-use thiserror::Error;
-
-/// The parameters of [`Implicit`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImplicitOptions {
-    /// How long heat flows, in cell units (multiples of the smallest spacing squared). Above 0, at
-    /// most [a thousand million](ImplicitError::TooLong) times the largest stable step of explicit
-    /// heat; default 16.
-    pub time: f64,
-    /// The number of steps that the time is divided into. From 1 to 1000; default 1.
-    pub steps: usize,
-    /// How the diffusion coefficient of a face is made from its two cells.
-    pub face_mean: FaceMean,
-    /// The most memory that the factorisation may take, in bytes; default 4 GiB.
-    pub memory_limit: usize,
-}
-
-impl Default for ImplicitOptions {
-    fn default() -> Self {
-        Self { time: 16.0, steps: 1, face_mean: FaceMean::default(), memory_limit: 4 << 30 }
-    }
-}
-
-/// The most steps that make sense: beyond them explicit heat is faster.
-const MOST_STEPS: usize = 1000;
-
-/// The longest step over the largest stable one of explicit heat: as many times larger are the
-/// rounding errors.
-const LONGEST_STEP: f64 = 1e9;
-
-/// Why implicit heat cannot flow as asked.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum ImplicitError {
-    /// The time is not a positive number.
-    #[error("the time is {0}; it must be a positive finite number")]
-    Time(f64),
-    /// The time is so long that rounding would spoil the heat.
-    #[error("the time {time} is too long for this medium; at most {longest} is possible")]
-    TooLong {
-        /// The time asked for, in cell units.
-        time: f64,
-        /// The longest possible, in cell units.
-        longest: f64,
-    },
-    /// There are no steps, or more than make sense.
-    #[error("the number of steps is {0}; it must be from 1 to 1000")]
-    Steps(usize),
-    /// The grid is too large to factor.
-    #[error("{0}; a larger grid than that needs explicit heat, which takes some 50 bytes a cell")]
-    TooLarge(LinearError),
-    /// The system cannot be solved.
-    #[error(transparent)]
-    Linear(LinearError),
-    /// The caller cancelled.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
+use system::{faces, matrix};
 
 /// Implicit heat in one medium, factored once for any number of sources.
 ///
@@ -242,31 +191,46 @@ impl<'a, const D: usize> Implicit<'a, D> {
         sets: &[(&Sources<D>, Vec<f64>)],
         exec: &Exec,
     ) -> Result<Vec<Heat<D>>, ImplicitError> {
-        let mut sides: Vec<Entries> =
-            sets.iter().map(|(sources, amounts)| self.start(sources, amounts)).collect();
-        let mut exposures: Vec<Option<Vec<Wide>>> = vec![None; sets.len()];
-        for _ in 1..self.steps {
-            let solutions = self.solve(&sides, exec)?;
-            for ((side, exposure), u) in sides.iter_mut().zip(&mut exposures).zip(solutions) {
-                *side = u.iter().enumerate().map(|(i, &u)| (i, self.over_factor(i, u))).collect();
-                *exposure = Some(match exposure.take() {
-                    Some(sum) => sum.iter().zip(&u).map(|(sum, &u)| sum.plus(u)).collect(),
-                    None => u,
-                });
-            }
+        let mut heats = Vec::with_capacity(sets.len());
+        for round in sets.chunks(8 * exec.threads()) {
+            let finished = heats.len() as f64 / sets.len() as f64;
+            exec.report(finished)?;
+            heats.extend(self.flow_round(round, exec));
         }
-        let solutions = self.solve(&sides, exec)?;
-        let heats = sets.iter().zip(exposures).zip(solutions);
-        let heats = heats
-            .map(|(((sources, amounts), exposure), u)| {
-                let exposure = exposure.map(|sum| {
-                    self.ln(&sum.iter().zip(&u).map(|(sum, &u)| sum.plus(u)).collect::<Vec<_>>())
-                });
-                self.heat(sources, amounts, self.ln(&u), exposure)
-            })
-            .collect();
         exec.report(1.0)?;
         Ok(heats)
+    }
+
+    /// All steps of several sets of sources together.
+    fn flow_round(&self, sets: &[(&Sources<D>, Vec<f64>)], exec: &Exec) -> Vec<Heat<D>> {
+        let mut sides: Vec<Entries> =
+            sets.iter().map(|(sources, amounts)| self.start(sources, amounts)).collect();
+        let mut exposures = vec![Vec::new(); sets.len()];
+        for _ in 1..self.steps {
+            let solutions = self.cholesky.solve(&sides, exec);
+            for ((side, exposure), u) in sides.iter_mut().zip(&mut exposures).zip(solutions) {
+                add(exposure, &u);
+                *side = u.iter().enumerate().map(|(i, &u)| (i, self.over_factor(i, u))).collect();
+            }
+        }
+        let solutions = self.cholesky.solve(&sides, exec);
+        // === Logarithms, and nothing twice
+        let mut fields: Vec<_> = solutions.into_iter().zip(exposures).map(|f| (f, None)).collect();
+        exec.for_each(
+            &mut fields,
+            || (),
+            |(), ((u, exposure), ln)| {
+                let several = !exposure.is_empty();
+                if several {
+                    add(exposure, u);
+                }
+                *ln = Some((self.ln(u), several.then(|| self.ln(exposure))));
+                (*u, *exposure) = (Vec::new(), Vec::new());
+            },
+        );
+        let fields = fields.into_iter().filter_map(|(_, ln)| ln);
+        let heats = sets.iter().zip(fields);
+        heats.map(|((sources, amounts), fields)| self.heat(sources, amounts, fields)).collect()
     }
 
     /// The right-hand side of the first step.
@@ -286,10 +250,6 @@ impl<'a, const D: usize> Implicit<'a, D> {
         u.times(1.0 / self.operator.factor_of(self.cells[place]))
     }
 
-    fn solve(&self, sides: &[Entries], exec: &Exec) -> Result<Vec<Vec<Wide>>, ImplicitError> {
-        self.cholesky.solve(sides, exec).map_err(explained)
-    }
-
     /// The logarithms of values in the order of elimination, as a grid.
     fn ln(&self, values: &[Wide]) -> Grid<f64, D> {
         let mut grid = Grid::from_fn(*self.medium.shape(), |_| f64::NEG_INFINITY);
@@ -301,8 +261,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
         &self,
         sources: &Sources<D>,
         amounts: &[f64],
-        ln_temperature: Grid<f64, D>,
-        ln_exposure: Option<Grid<f64, D>>,
+        (ln_temperature, ln_exposure): (Grid<f64, D>, Option<Grid<f64, D>>),
     ) -> Heat<D> {
         Heat {
             scheme: Scheme::Implicit,
@@ -318,60 +277,11 @@ impl<'a, const D: usize> Implicit<'a, D> {
     }
 }
 
-/// The faces between open cells: the axis, and the cell after the face.
-fn faces<const D: usize>(medium: &Medium<D>) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let (shape, mask) = (*medium.shape(), medium.mask());
-    (0..D).flat_map(move |axis| {
-        let stride = shape.stride(axis);
-        (stride..shape.cells())
-            .filter(move |&cell| {
-                shape.index(cell)[axis] > 0 && mask.is_open(cell) && mask.is_open(cell - stride)
-            })
-            .map(move |cell| (axis, cell))
-    })
-}
-
-/// The diagonal of `1/k + step L` in the order of `cells`, and its entries for all faces.
-fn matrix<const D: usize>(
-    medium: &Medium<D>,
-    operator: &Operator<D>,
-    cells: &[usize],
-    step: f64,
-) -> (Vec<f64>, Vec<f64>) {
-    let mut diagonal: Vec<f64> =
-        (0..medium.shape().cells()).map(|cell| 1.0 / operator.factor_of(cell)).collect();
-    let couplings = faces(medium)
-        .map(|(axis, cell)| {
-            let weight = step * operator.conductance(axis, cell);
-            diagonal[cell] += weight;
-            diagonal[cell - medium.shape().stride(axis)] += weight;
-            -weight
-        })
-        .collect();
-    (cells.iter().map(|&cell| diagonal[cell]).collect(), couplings)
-}
-
-/// The length of a step, if it makes sense in a medium with this largest stable explicit step.
-fn step(time: f64, steps: usize, largest_stable: f64) -> Result<f64, ImplicitError> {
-    if !(1..=MOST_STEPS).contains(&steps) {
-        return Err(ImplicitError::Steps(steps));
-    }
-    if !(time.is_finite() && time > 0.0) {
-        return Err(ImplicitError::Time(time));
-    }
-    let (step, longest) = (time / steps as f64, LONGEST_STEP * largest_stable);
-    if step > longest {
-        return Err(ImplicitError::TooLong { time, longest: longest * steps as f64 });
-    }
-    Ok(step)
-}
-
-fn explained(error: LinearError) -> ImplicitError {
-    match error {
-        LinearError::Cancelled(cancelled) => ImplicitError::Cancelled(cancelled),
-        LinearError::TooLarge { .. } | LinearError::OutOfMemory(_) => {
-            ImplicitError::TooLarge(error)
-        }
-        error => ImplicitError::Linear(error),
+/// Adds `u` to a sum, which may be empty.
+fn add(sum: &mut Vec<Wide>, u: &[Wide]) {
+    if sum.is_empty() {
+        sum.extend_from_slice(u);
+    } else {
+        sum.iter_mut().zip(u).for_each(|(sum, &u)| *sum = sum.plus(u));
     }
 }
