@@ -5,12 +5,16 @@ use crate::exec::Cancelled;
 use crate::linear::LinearError;
 use thiserror::Error;
 
-/// The parameters of [`Implicit`].
+/// The parameters of [`Implicit`](super::Implicit).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImplicitOptions {
     /// How long heat flows, in cell units (multiples of the smallest spacing squared). Above 0, at
     /// most [a thousand million](ImplicitError::TooLong) times the largest stable step of explicit
-    /// heat; default 16.
+    /// heat; default [`DEFAULT_TIME`](Self::DEFAULT_TIME), 16.
+    ///
+    /// Heat decays by e every `sqrt(time k D)` cells. Longer times make distances more exact in the
+    /// open: they are too short by `1 / (24 time k D)` along the axes. Shorter times feel borders,
+    /// walls and changes of the medium less far. For structures of width w take at most `w^2`.
     pub time: f64,
     /// The number of steps that the time is divided into. From 1 to 1000; default 1.
     pub steps: usize,
@@ -20,9 +24,20 @@ pub struct ImplicitOptions {
     pub memory_limit: usize,
 }
 
+impl ImplicitOptions {
+    /// The default time: in a uniform medium distances beyond ten cells are right to 0.4 %, and
+    /// borders are felt over four cells.
+    pub const DEFAULT_TIME: f64 = 16.0;
+}
+
 impl Default for ImplicitOptions {
     fn default() -> Self {
-        Self { time: 16.0, steps: 1, face_mean: FaceMean::default(), memory_limit: 4 << 30 }
+        Self {
+            time: Self::DEFAULT_TIME,
+            steps: 1,
+            face_mean: FaceMean::default(),
+            memory_limit: 4 << 30,
+        }
     }
 }
 
