@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
+use heatpath_core::exec::SimdLevel;
 use heatpath_core::grid::bridge::{BridgeError, bridge};
 use heatpath_core::grid::distance::{distance_matrix, normalized, varadhan};
 use heatpath_core::grid::heat::{
@@ -118,23 +119,75 @@ fn uniform_space_line_and_slender_grids() {
     }
 }
 
-/// Closed forms of varying media: a speed that grows with x, and the hyperbolic half-plane.
+/// The largest errors in two ranges of distance, for several times and for explicit heat.
+fn table(
+    name: &str,
+    medium: &Medium<2>,
+    source: [f64; 2],
+    exact: &dyn Fn([f64; 2]) -> f64,
+    ranges: [[f64; 2]; 2],
+) -> (String, [f64; 2]) {
+    let errors = |heat: &Heat<2>| {
+        let map = normalized(heat);
+        ranges.map(|[from, to]| worst(map.field(), exact, from, to))
+    };
+    let mut lines = name.to_owned();
+    for time in [1.0, 4.0, 64.0, 256.0] {
+        let error = errors(&flow(medium, source, options(time, 1)));
+        lines += &format!("\n  time {time}: {error:.2?}");
+    }
+    let sources = Sources::new(&[source], medium.mask()).unwrap();
+    let auto = HeatOptions { step: Step::Auto, ..HeatOptions::default() };
+    let explicit = Explicit::new(medium, auto).unwrap();
+    let explicit = explicit.flow(&sources, &Exec::single_threaded()).unwrap();
+    let usual = errors(&flow(medium, source, ImplicitOptions::default()));
+    lines += &format!("\n  default time: {usual:.2?}\n  explicit: {:.2?}", errors(&explicit));
+    (lines, usual)
+}
+
+/// How far changes of the medium, walls and borders are felt: closed forms.
 #[test]
-fn varying_media() {
+fn the_default_time() {
+    let shape = Shape::new([201, 201]).unwrap();
     let (s, slope) = ([100.0, 100.0], 0.004);
     let speed = |x: f64| 0.3 + slope * x;
-    let shape = Shape::new([201, 201]).unwrap();
-    let linear =
-        medium::given(Grid::from_fn(shape, |[x, _]| speed(x as f64).powi(2)), Form::Pointwise);
+    let linear = Grid::from_fn(shape, |[x, _]| speed(x as f64).powi(2));
+    let linear = medium::given(linear, Form::Pointwise).unwrap();
     let exact = |p: [f64; 2]| {
         (1.0 + (slope * euclidean(p, s)).powi(2) / (2.0 * speed(s[0]) * speed(p[0]))).acosh()
             / slope
     };
-    let map = normalized(&flow(&linear.unwrap(), s, options(16.0, 1)));
-    let error = worst(map.field(), exact, 10.0, 70.0);
-    println!("linear speed: {error:.2} %");
-    assert!(error < 0.8);
+    let (lines, found) = table("speed grows", &linear, s, &exact, [[10.0, 80.0], [80.0, 1e9]]);
+    println!("{lines}");
+    assert!(found[0] < 0.8);
 
+    let shape = Shape::new([161, 161]).unwrap();
+    let mask = Mask::new(Grid::from_fn(shape, |[x, y]| x != 80 || y >= 120));
+    let walled = medium::uniform(shape).with_walls(mask).unwrap();
+    let (s, end) = ([40.0, 60.0], [80.0, 119.5]);
+    let exact = |p: [f64; 2]| {
+        let crossing = s[1] + (80.0 - s[0]) / (p[0] - s[0]) * (p[1] - s[1]);
+        let in_sight = p[0] < 80.0 || crossing > end[1];
+        match (p[0] == 80.0 && p[1] < 120.0, in_sight) {
+            (true, _) => f64::INFINITY,
+            (_, true) => euclidean(p, s),
+            _ => euclidean(s, end) + euclidean(end, p),
+        }
+    };
+    let (lines, found) = table("wall", &walled, s, &exact, [[5.0, 20.0], [40.0, 1e9]]);
+    println!("{lines}");
+    assert!(found[0] < 0.8 && found[1] < 9.5);
+
+    let open = medium::uniform(Shape::new([201, 201]).unwrap());
+    let s = [3.0, 100.0];
+    let (lines, found) =
+        table("border", &open, s, &|p| euclidean(p, s), [[10.0, 20.0], [80.0, 1e9]]);
+    println!("{lines}");
+    assert!(found[0] < 22.0 && found[1] < 5.5);
+}
+
+#[test]
+fn half_plane() {
     let shape = Shape::with_spacing([101, 101], [0.01, 0.01]).unwrap();
     let y = |row: f64| 1.0 + 0.01 * row;
     let field = Grid::from_fn(shape, |[_, row]| y(row as f64).powi(2));
@@ -260,6 +313,13 @@ fn range_without_limits() {
 fn threads_batches_and_new_times_change_no_bit() {
     let (medium, source) = rough(Shape::new([90, 70]).unwrap(), 2.0, Form::Divergence, 0.1, 3);
     let once = flow(&medium, source, options(9.0, 2));
+    for level in [SimdLevel::Baseline, SimdLevel::Avx2] {
+        let exec = Exec::single_threaded().with_simd(level);
+        let sources = Sources::new(&[source], medium.mask()).unwrap();
+        let implicit = Implicit::new(&medium, options(9.0, 2), &exec).unwrap();
+        let heat = implicit.flow(&sources, &exec).unwrap();
+        assert_eq!(heat.ln_temperature(), once.ln_temperature(), "{level:?}");
+    }
     let sets: Vec<Sources<2>> =
         (0..20).map(|_| Sources::new(&[source], medium.mask()).unwrap()).collect();
     for threads in [1, 2, 3, 8] {

@@ -37,9 +37,7 @@ impl Analysis {
         let within = |needed: usize| {
             if needed <= limit { Ok(()) } else { Err(LinearError::TooLarge { needed, limit }) }
         };
-        // === Each column of the factor has at least the entries of the matrix
-        let entries = unknowns.saturating_add(couplings.len());
-        within(entries.saturating_mul(size_of::<f64>() + size_of::<usize>()))?;
+        within(Self::least_bytes(unknowns, couplings.len()))?;
         let (starts, rows) = upper_triangle(unknowns, &couplings);
         let pattern =
             SymbolicSparseColMatRef::new_unsorted_checked(unknowns, unknowns, &starts, None, &rows);
@@ -71,6 +69,12 @@ impl Analysis {
         let analysis = Self { couplings, factor, entries, limit };
         within(analysis.bytes())?;
         Ok(analysis)
+    }
+
+    /// Less memory than this no factor takes, in bytes: that of the matrix itself.
+    #[must_use]
+    pub fn least_bytes(unknowns: usize, couplings: usize) -> usize {
+        unknowns.saturating_add(couplings).saturating_mul(size_of::<f64>() + size_of::<usize>())
     }
 
     /// The memory that the factor takes, in bytes.

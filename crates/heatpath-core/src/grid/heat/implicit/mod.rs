@@ -20,7 +20,7 @@ use crate::grid::{Grid, Sources};
 use crate::linear::{Analysis, Cholesky, Entries, Wide};
 use options::{explained, step};
 use std::sync::Arc;
-use system::{faces, matrix};
+use system::{check_memory, faces, matrix};
 
 /// Implicit heat in one medium, factored once for any number of sources.
 ///
@@ -67,6 +67,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
         options: ImplicitOptions,
         exec: &Exec,
     ) -> Result<Self, ImplicitError> {
+        check_memory(medium, options.memory_limit)?;
         let operator = Operator::new(medium, options.face_mean);
         let step = step(options.time, options.steps, operator.largest_stable_step(medium.shape()))?;
         let cells = order::nested_dissection(medium.mask());
@@ -145,7 +146,8 @@ impl<'a, const D: usize> Implicit<'a, D> {
     /// after the other.
     ///
     /// The sets are shared between the threads, and several at a time go through the factor
-    /// together.
+    /// together. Memory: 8 bytes a cell for each result (16 after several steps), and some 30 for
+    /// each set in work, 8 for each thread.
     ///
     /// # Errors
     /// The caller cancelled.

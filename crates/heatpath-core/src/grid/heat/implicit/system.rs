@@ -1,7 +1,22 @@
 //! The system of one step: `1/k + step L`.
 
 use super::super::operator::Operator;
+use super::ImplicitError;
 use crate::grid::medium::Medium;
+use crate::linear::{Analysis, LinearError};
+
+/// Refuses grids whose matrix alone is too large, before anything of their size is allocated.
+pub(super) fn check_memory<const D: usize>(
+    medium: &Medium<D>,
+    limit: usize,
+) -> Result<(), ImplicitError> {
+    let open = (0..medium.shape().cells()).filter(|&cell| medium.mask().is_open(cell)).count();
+    let needed = Analysis::least_bytes(open, faces(medium).count());
+    if needed <= limit {
+        return Ok(());
+    }
+    Err(ImplicitError::TooLarge(LinearError::TooLarge { needed, limit }))
+}
 
 /// The faces between open cells: the axis, and the cell after the face.
 pub(super) fn faces<const D: usize>(
