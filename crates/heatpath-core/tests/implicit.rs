@@ -1,40 +1,17 @@
-//! Implicit heat: closed forms, the simplest solver, explicit heat, paths, and what is made of many
-//! heats.
+//! Implicit heat: closed forms, paths, and what is refused.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+mod support;
+
 use heatpath_core::Exec;
-use heatpath_core::exec::SimdLevel;
-use heatpath_core::grid::bridge::{BridgeError, bridge};
-use heatpath_core::grid::distance::{distance_matrix, normalized, varadhan};
+use heatpath_core::grid::distance::{normalized, varadhan};
 use heatpath_core::grid::heat::{
-    Duration, Explicit, Heat, HeatOptions, Implicit, ImplicitError, ImplicitOptions, Step,
+    Explicit, Heat, HeatOptions, Implicit, ImplicitError, ImplicitOptions, Step,
 };
-use heatpath_core::grid::labels::labels;
 use heatpath_core::grid::medium::{self, Form, Medium};
-use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
+use heatpath_core::grid::path::Ending;
 use heatpath_core::grid::{Grid, Mask, Shape, Sources};
-use heatpath_core::linear::Wide;
-use proptest::prelude::*;
-
-fn options(time: f64, steps: usize) -> ImplicitOptions {
-    ImplicitOptions { time, steps, ..ImplicitOptions::default() }
-}
-
-fn flow<const D: usize>(medium: &Medium<D>, source: [f64; D], options: ImplicitOptions) -> Heat<D> {
-    let exec = Exec::single_threaded();
-    let sources = Sources::new(&[source], medium.mask()).unwrap();
-    Implicit::new(medium, options, &exec).unwrap().flow(&sources, &exec).unwrap()
-}
-
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(2685821657736338717) | 1;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
+use support::{euclidean, flow, options, paths};
 
 /// The largest relative error of distances between `from` and `to`, in per cent.
 fn worst<const D: usize>(
@@ -49,10 +26,6 @@ fn worst<const D: usize>(
         .filter(|&(_, point)| (from..to).contains(&exact(point)))
         .map(|(distance, point)| 100.0 * (distance / exact(point) - 1.0).abs())
         .fold(0.0, f64::max)
-}
-
-fn euclidean<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    (0..D).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
 #[test]
@@ -202,158 +175,6 @@ fn half_plane() {
     assert!(error < 1.0);
 }
 
-/// A medium without symmetry, with walls if `density` is above 0; the source's cell is open.
-fn rough<const D: usize>(
-    shape: Shape<D>,
-    contrast: f64,
-    form: Form,
-    density: f64,
-    seed: u64,
-) -> (Medium<D>, [f64; D]) {
-    let mut random = random(seed);
-    let field = Grid::from_fn(shape, |_| 10_f64.powf(-contrast * random()));
-    let source = shape.cell_at(shape.size().map(|side| side as f64 * random() - 0.5));
-    let mask = Mask::new(Grid::from_fn(shape, |index| index == source || random() > density));
-    let medium = medium::given(field, form).unwrap().with_walls(mask).unwrap();
-    (medium, source.map(|i| i as f64))
-}
-
-/// The conductance of the face between two neighbours.
-fn conductance<const D: usize>(medium: &Medium<D>, axis: usize, a: usize, b: usize) -> f64 {
-    let shape = medium.shape();
-    let open = medium.mask().is_open(a) && medium.mask().is_open(b);
-    let harmonic = |x: f64, y: f64| 2.0 * x * y / (x + y);
-    let mean = medium.diffusion().map_or(1.0, |d| harmonic(d.values()[a], d.values()[b]));
-    let scale = (shape.smallest_spacing() / shape.spacing()[axis]).powi(2);
-    if open { scale * mean } else { 0.0 }
-}
-
-/// Gauss-Seidel sweeps until nothing changes: `u = (u0 + step k sum of c u_next) / (1 + step k sum
-/// of c)` has only positive terms, so it is right in every cell, however small.
-fn sweeps<const D: usize>(medium: &Medium<D>, start: &[Wide], step: f64) -> Vec<Wide> {
-    let shape = *medium.shape();
-    let mut u = vec![Wide::ZERO; shape.cells()];
-    for sweep in 0.. {
-        let before = u.clone();
-        for number in 0..shape.cells() {
-            let cell = if sweep % 2 == 0 { number } else { shape.cells() - 1 - number };
-            let k = medium.factor().map_or(1.0, |k| k.values()[cell]);
-            let (mut sum, mut weights) = (start[cell], 1.0);
-            for next in shape.neighbours(cell) {
-                let axis = (0..D).find(|&a| shape.index(next)[a] != shape.index(cell)[a]).unwrap();
-                let weight = step * k * conductance(medium, axis, cell, next);
-                sum = sum.plus(u[next].times(weight));
-                weights += weight;
-            }
-            u[cell] = sum.times(1.0 / weights);
-        }
-        let still = |(a, b): (&Wide, &Wide)| {
-            a == b || (a.ln() - b.ln()).abs() < 1e-15 * (1.0 + a.ln().abs())
-        };
-        if u.iter().zip(&before).all(still) || sweep > 20_000 {
-            break;
-        }
-    }
-    u
-}
-
-fn assert_agrees<const D: usize>(medium: &Medium<D>, source: [f64; D], time: f64, steps: usize) {
-    let shape = *medium.shape();
-    let heat = flow(medium, source, options(time, steps));
-    let mut u = vec![Wide::ZERO; shape.cells()];
-    u[shape.position(shape.cell_at(source))] = Wide::from(1.0);
-    let mut sum = vec![Wide::ZERO; shape.cells()];
-    for _ in 0..steps {
-        u = sweeps(medium, &u, time / steps as f64);
-        sum.iter_mut().zip(&u).for_each(|(sum, &u)| *sum = sum.plus(u));
-    }
-    for (field, exact) in [(heat.ln_temperature(), &u), (heat.ln_exposure(), &sum)] {
-        for (cell, (ln, exact)) in field.values().iter().zip(exact).enumerate() {
-            assert_eq!(*ln == f64::NEG_INFINITY, exact.is_zero(), "cell {cell}");
-            let error = if exact.is_zero() { 0.0 } else { (ln - exact.ln()).abs() };
-            assert!(error <= 1e-11 * (1.0 + exact.ln().abs()), "cell {cell}: {ln}, {}", exact.ln());
-        }
-    }
-}
-
-#[test]
-fn every_cell_is_right_however_small() {
-    let shape = Shape::new([60, 45]).unwrap();
-    for (form, contrast, time, steps) in [
-        (Form::Divergence, 2.0, 0.1, 1),
-        (Form::Pointwise, 3.0, 0.5, 1),
-        (Form::Pointwise, 1.0, 2.0, 3),
-        (Form::Divergence, 6.0, 1.0, 2),
-        (Form::Pointwise, 3.0, 1e-15, 1),
-        (Form::Divergence, 1.0, 1e-40, 2),
-    ] {
-        let (medium, source) = rough(shape, contrast, form, 0.0, 7);
-        let heat = flow(&medium, source, options(time, steps));
-        let least = heat.ln_temperature().values().iter().copied().fold(0.0, f64::min);
-        println!("{form:?}, contrast {contrast}, time {time}: log u down to {least:.0}");
-        assert_agrees(&medium, source, time, steps);
-    }
-}
-
-/// A corridor of slow cells: u falls to exp(-27000), which f64 ends at exp(-745).
-#[test]
-fn range_without_limits() {
-    let n = 3000;
-    let medium = medium::uniform(Shape::new([n, 1]).unwrap());
-    let heat = flow(&medium, [0.0, 0.0], options(1e-4, 1));
-    let per_cell = 2.0 * 50_f64.asinh();
-    let ln = heat.ln_temperature().values();
-    println!("log u down to {}", ln[n - 1]);
-    for cell in 1..n - 1 {
-        assert!((ln[cell] - ln[0] + per_cell * cell as f64).abs() < 1e-10 * per_cell * cell as f64);
-    }
-}
-
-#[test]
-fn threads_batches_and_new_times_change_no_bit() {
-    let (medium, source) = rough(Shape::new([90, 70]).unwrap(), 2.0, Form::Divergence, 0.1, 3);
-    let once = flow(&medium, source, options(9.0, 2));
-    for level in [SimdLevel::Baseline, SimdLevel::Avx2] {
-        let exec = Exec::single_threaded().with_simd(level);
-        let sources = Sources::new(&[source], medium.mask()).unwrap();
-        let implicit = Implicit::new(&medium, options(9.0, 2), &exec).unwrap();
-        let heat = implicit.flow(&sources, &exec).unwrap();
-        assert_eq!(heat.ln_temperature(), once.ln_temperature(), "{level:?}");
-    }
-    let sets: Vec<Sources<2>> =
-        (0..20).map(|_| Sources::new(&[source], medium.mask()).unwrap()).collect();
-    for threads in [1, 2, 3, 8] {
-        let exec = Exec::new(threads).unwrap();
-        let other = Implicit::new(&medium, options(2.0, 1), &exec).unwrap();
-        let implicit = other.with_time(9.0, 2, &exec).unwrap();
-        for heat in implicit.flow_many(&sets, &exec).unwrap() {
-            assert_eq!(heat.ln_temperature(), once.ln_temperature(), "{threads} threads");
-            assert_eq!(heat.ln_exposure(), once.ln_exposure());
-        }
-    }
-}
-
-/// Many small implicit steps and many smaller explicit ones are the same heat.
-#[test]
-fn small_steps_are_those_of_explicit_heat() {
-    let (medium, source) = rough(Shape::new([25, 25]).unwrap(), 0.5, Form::Pointwise, 0.1, 11);
-    let implicit = flow(&medium, source, options(10.0, 1000));
-    let duration = Duration::Time(10.0);
-    let explicit = Explicit::new(
-        &medium,
-        HeatOptions { duration, step: Step::Fixed(0.01), ..Default::default() },
-    );
-    let sources = Sources::new(&[source], medium.mask()).unwrap();
-    let explicit = explicit.unwrap().flow(&sources, &Exec::single_threaded()).unwrap();
-    for (a, b) in implicit.ln_temperature().values().iter().zip(explicit.ln_temperature().values())
-    {
-        assert_eq!(a.is_finite(), b.is_finite());
-        if *b > -6.0 {
-            assert!((a - b).abs() < 0.03, "{a} and {b}");
-        }
-    }
-}
-
 #[test]
 fn what_cannot_be_done_is_refused() {
     let medium = medium::uniform(Shape::new([200, 200]).unwrap());
@@ -378,19 +199,6 @@ fn what_cannot_be_done_is_refused() {
     let cancelling = Exec::single_threaded().with_watch(|_| std::ops::ControlFlow::Break(()));
     let cancelled = Implicit::new(&medium, ImplicitOptions::default(), &cancelling);
     assert!(matches!(cancelled, Err(ImplicitError::Cancelled(_))));
-}
-
-fn paths(
-    medium: &Medium<2>,
-    sources: &[[f64; 2]],
-    ends: &[[f64; 2]],
-    options: ImplicitOptions,
-) -> Vec<Path<2>> {
-    let exec = Exec::single_threaded();
-    let sources = Sources::new(sources, medium.mask()).unwrap();
-    let heat = Implicit::new(medium, options, &exec).unwrap().flow(&sources, &exec).unwrap();
-    let (descent, distances) = (Descent::new(&heat), normalized(&heat));
-    ends.iter().map(|&end| descent.path(end, &distances, PathOptions::default()).unwrap()).collect()
 }
 
 #[test]
@@ -458,130 +266,5 @@ fn paths_end_at_the_source_when_heat_is_trapped() {
         for path in paths(&medium, &[[5.0, 4.0]], &ends, options(time, 1)) {
             assert_eq!(path.ending, Ending::Source(0), "time {time}");
         }
-    }
-}
-
-#[test]
-fn balanced_sources_are_equally_near() {
-    let shape = Shape::new([160, 60]).unwrap();
-    let field = Grid::from_fn(shape, |[x, _]| if x < 80 { 1.0 } else { 0.1 });
-    let medium = medium::given(field, Form::Pointwise).unwrap();
-    let exec = Exec::single_threaded();
-    let sources = Sources::new(&[[30.0, 30.0], [130.0, 30.0]], medium.mask()).unwrap();
-    let implicit = Implicit::new(&medium, options(16.0, 1), &exec).unwrap();
-    let balanced = normalized(&implicit.flow_balanced(&sources, &exec).unwrap());
-    for (source, slowness) in [([30.0, 30.0], 1.0), ([130.0, 30.0], 10.0_f64.sqrt())] {
-        assert!(balanced.at(source) < 1.0, "{source:?}: {}", balanced.at(source));
-        let beside = balanced.at([source[0] + 9.0, source[1]]);
-        assert!((beside / (9.0 * slowness) - 1.0).abs() < 0.05, "{source:?}: {beside}");
-    }
-}
-
-#[test]
-fn a_matrix_of_distances_is_symmetric() {
-    let (medium, _) = rough(Shape::new([70, 50]).unwrap(), 1.0, Form::Pointwise, 0.0, 5);
-    let exec = Exec::new(2).unwrap();
-    let implicit = Implicit::new(&medium, options(16.0, 1), &exec).unwrap();
-    let points: Vec<[f64; 2]> =
-        (0..40).map(|i| [f64::from(i * 17 % 70), f64::from(i * 29 % 50)]).collect();
-    let points = Sources::new(&points, medium.mask()).unwrap();
-    let matrix = distance_matrix(&implicit, &points, &points, &exec).unwrap();
-    for (i, row) in matrix.iter().enumerate() {
-        let alone = normalized(&implicit.flow(&points.each()[i], &exec).unwrap());
-        for (j, &there) in row.iter().enumerate() {
-            let back = matrix[j][i];
-            assert!((there - back).abs() < 1e-8 * (1.0 + there), "{there} and {back}");
-            assert!((there - alone.at(points.points()[j])).abs() < 1e-9 * (1.0 + there));
-        }
-    }
-    let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
-    let two = Sources::new(&points.points()[..2], medium.mask()).unwrap();
-    let slower = distance_matrix(&explicit, &two, &two, &exec).unwrap();
-    assert!((slower[0][1] / matrix[0][1] - 1.0).abs() < 0.15, "{slower:?} {}", matrix[0][1]);
-}
-
-#[test]
-fn a_bridge_is_as_wide_as_said() {
-    let medium = medium::uniform(Shape::new([161, 101]).unwrap());
-    let (s, t) = ([30.0, 50.0], [130.0, 50.0]);
-    let density = bridge(&flow(&medium, s, options(16.0, 1)), &flow(&medium, t, options(16.0, 1)));
-    let density = density.unwrap();
-    let half_width = 0.5 * (2.0 * 100.0 * 4.0_f64).sqrt();
-    for x in [80_usize, 60] {
-        let highest =
-            (0..101).max_by(|&a, &b| density[[x, a]].total_cmp(&density[[x, b]])).unwrap();
-        assert_eq!(highest, 50);
-    }
-    let fall = density[[80, 50]] - density[[80, 50 + half_width.round() as usize]];
-    assert!((fall - 1.0).abs() < 0.1, "{fall}");
-
-    let other = medium::uniform(Shape::new([8, 9]).unwrap());
-    let small = flow(&other, [1.0, 1.0], options(1.0, 1));
-    let big = flow(&medium, s, options(1.0, 1));
-    assert!(matches!(bridge(&small, &big), Err(BridgeError::Size { .. })));
-    let walls = Mask::new(Grid::from_fn(Shape::new([8, 9]).unwrap(), |[x, _]| x != 4));
-    let apart = other.clone().with_walls(walls).unwrap();
-    let [a, b] = [[1.0, 1.0], [7.0, 1.0]].map(|point| flow(&apart, point, options(1.0, 1)));
-    assert_eq!(bridge(&a, &b), Err(BridgeError::NotReached));
-}
-
-#[test]
-fn labels_are_those_of_the_nearest_source() {
-    let walls = Mask::new(Grid::from_fn(Shape::new([90, 70]).unwrap(), |[x, _]| x != 80));
-    let medium = medium::uniform(*walls.shape()).with_walls(walls).unwrap();
-    let points = [[20.0, 20.0], [60.0, 15.0], [40.0, 55.0]];
-    let heats: Vec<Heat<2>> =
-        points.iter().map(|&point| flow(&medium, point, ImplicitOptions::default())).collect();
-    let labels = labels(&heats).unwrap();
-    for cell in 0..90 * 70 {
-        let p = medium.shape().centre(cell);
-        let shares: f64 = labels.shares.iter().map(|share| share.values()[cell]).sum();
-        if p[0] >= 80.0 {
-            assert_eq!((labels.nearest.values()[cell], shares), (None, 0.0));
-            continue;
-        }
-        assert!((shares - 1.0).abs() < 1e-12);
-        let mut order = [0, 1, 2];
-        order.sort_by(|&a, &b| euclidean(points[a], p).total_cmp(&euclidean(points[b], p)));
-        if euclidean(points[order[1]], p) - euclidean(points[order[0]], p) > 0.5 {
-            assert_eq!(labels.nearest.values()[cell], Some(order[0]), "{p:?}");
-            assert!(labels.shares[order[0]].values()[cell] > 0.4);
-        }
-    }
-    assert!(heatpath_core::grid::labels::labels::<2>(&[]).is_none());
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(64) })]
-
-    /// Any small medium with walls: right in every cell, and every path ends at the source.
-    #[test]
-    fn any_picture(
-        width in 1_usize..14, height in 1_usize..14, seed: u64, density in 0.0..0.6_f64,
-        contrast in 0.0..4.0_f64, time in -20.0..2.0_f64, steps in 1_usize..4, pointwise: bool,
-    ) {
-        let form = if pointwise { Form::Pointwise } else { Form::Divergence };
-        let (medium, source) =
-            rough(Shape::new([width, height]).unwrap(), contrast, form, density, seed);
-        let time = 10_f64.powf(time);
-        assert_agrees(&medium, source, time, steps);
-        let position = |point| medium.shape().position(medium.shape().cell_at(point));
-        let connected = medium.mask().reachable_from([position(source)]);
-        let open = (0..width * height).filter(|&cell| medium.mask().is_open(cell));
-        let ends: Vec<[f64; 2]> = open.step_by(3).map(|cell| medium.shape().centre(cell)).collect();
-        for path in paths(&medium, &[source], &ends, options(time, steps)) {
-            let reachable = connected.values()[position(path.points[0])];
-            let expected = if reachable { Ending::Source(0) } else { Ending::Unreachable };
-            prop_assert_eq!(path.ending, expected);
-        }
-    }
-
-    #[test]
-    fn any_volume(
-        x in 1_usize..6, y in 1_usize..6, z in 1_usize..6, seed: u64, density in 0.0..0.5_f64,
-    ) {
-        let shape = Shape::with_spacing([x, y, z], [1.0, 2.0, 0.7]).unwrap();
-        let (medium, source) = rough(shape, 1.0, Form::Divergence, density, seed);
-        assert_agrees(&medium, source, 0.8, 1);
     }
 }
