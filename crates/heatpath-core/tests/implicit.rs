@@ -268,3 +268,19 @@ fn paths_end_at_the_source_when_heat_is_trapped() {
         }
     }
 }
+
+/// A medium without any open cell can be prepared, although nothing can start there.
+#[test]
+fn walls_everywhere_but_one_cell_or_none() {
+    let shape = Shape::new([5, 4, 3]).unwrap();
+    let exec = Exec::single_threaded();
+    let nowhere = Mask::new(Grid::from_fn(shape, |_| false));
+    let closed = medium::uniform(shape).with_walls(nowhere).unwrap();
+    assert!(Implicit::new(&closed, ImplicitOptions::default(), &exec).is_ok());
+    let one = Mask::new(Grid::from_fn(shape, |index| index == [2, 2, 1]));
+    let cell = medium::uniform(shape).with_walls(one).unwrap();
+    let heat = flow(&cell, [2.0, 2.0, 1.0], ImplicitOptions::default());
+    assert_eq!(heat.ln_temperature()[[2, 2, 1]], 0.0);
+    assert_eq!(heat.ln_temperature().values().iter().filter(|ln| ln.is_finite()).count(), 1);
+    assert_eq!(normalized(&heat).reached().count(), 1);
+}
