@@ -1,9 +1,8 @@
 //! What went wrong, and the exit code for it.
 
 use heatpath_core::exec::ThreadsError;
-use heatpath_core::grid::heat::HeatError;
+use heatpath_core::grid::heat::{HeatError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
-use heatpath_core::grid::path::NoExposure;
 use heatpath_core::grid::{PointError, ShapeError};
 use heatpath_io::{ReadError, WriteError};
 use std::fmt;

@@ -1,9 +1,8 @@
 //! What functions return, and the message that goes with it.
 
 use heatpath_core::exec::{Cancelled, ThreadsError};
-use heatpath_core::grid::heat::HeatError;
+use heatpath_core::grid::heat::{HeatError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
-use heatpath_core::grid::path::NoExposure;
 use heatpath_core::grid::{NotFinite, PointError, ShapeError};
 use std::any::Any;
 use std::cell::RefCell;

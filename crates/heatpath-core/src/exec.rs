@@ -98,25 +98,29 @@ impl<'a> Exec<'a> {
         }
     }
 
+    /// Calls `work` once for each of `items`, in parallel.
+    pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
+        use rayon::prelude::*;
+        match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
+            Some(pool) => pool.install(|| items.par_iter_mut().for_each(work)),
+            None => items.iter_mut().for_each(work),
+        }
+    }
+
     /// Calls `work` once for each of `items`, in parallel, with one of `scratch`, of which there must
     /// be one for each of the [`threads`](Self::threads).
-    pub(crate) fn for_each<T: Send, S: Send>(
+    pub(crate) fn for_each_with<T: Send, S: Send>(
         &self,
         items: &mut [T],
         scratch: &[Mutex<S>],
         work: impl Fn(&mut S, &mut T) + Sync + Send,
     ) {
-        use rayon::prelude::*;
-        let work = |item: &mut T| {
-            let thread = rayon::current_thread_index().unwrap_or(0);
+        self.for_each(items, |item| {
+            let thread = rayon::current_thread_index().unwrap_or(0) % scratch.len();
             // A lock poisoned by a panic is met by nobody: the panic ends the whole call.
             let mut scratch = scratch[thread].lock().unwrap_or_else(PoisonError::into_inner);
             work(&mut scratch, item);
-        };
-        match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
-            Some(pool) => pool.install(|| items.par_iter_mut().for_each(work)),
-            None => items.iter_mut().for_each(work),
-        }
+        });
     }
 }
 

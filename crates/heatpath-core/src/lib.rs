@@ -3,6 +3,7 @@
 
 pub mod exec;
 pub mod grid;
+pub mod linear;
 mod simd;
 
 pub use exec::Exec;

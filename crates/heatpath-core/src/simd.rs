@@ -63,6 +63,26 @@ impl SimdLevel {
             Self::Baseline => "baseline",
         }
     }
+
+    /// Runs `work` compiled for this level: whatever is inlined into it uses its instructions.
+    #[inline(always)]
+    pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
+        #[cfg(target_arch = "x86_64")]
+        match self {
+            Self::Avx512 => {
+                if let Some(level) = V4::try_new() {
+                    return level.vectorize(work);
+                }
+            }
+            Self::Avx2 => {
+                if let Some(level) = V3::try_new() {
+                    return level.vectorize(work);
+                }
+            }
+            Self::Baseline => {}
+        }
+        work()
+    }
 }
 
 /// A vector of floating-point numbers and what the stencil does with it.

@@ -4,10 +4,12 @@
 //! becomes a [`medium`], the medium carries [`heat`], the heat is read as a [`distance`], and a
 //! [`path`] descends to a source.
 
+pub mod bridge;
 pub mod distance;
 mod field;
 pub mod filter;
 pub mod heat;
+pub mod labels;
 mod mask;
 pub mod medium;
 pub mod path;

@@ -6,12 +6,12 @@
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
+use super::distance::matern::Matern;
 use super::distance::{DistanceMap, NOT_REACHED};
-use super::heat::Heat;
+use super::heat::{Heat, NoExposure, Scheme};
 use super::sample::corners;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::f64::consts::PI;
-use thiserror::Error;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,11 +60,6 @@ impl Default for PathOptions {
     }
 }
 
-/// There is nothing for paths to follow.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("the heat was made without its exposure, which paths follow: ask for it in the options")]
-pub struct NoExposure;
-
 /// A potential to descend, with its sources and walls: traces any number of paths.
 #[derive(Clone, Debug)]
 pub struct Descent<const D: usize> {
@@ -82,7 +77,7 @@ impl<const D: usize> Descent<D> {
     /// # Errors
     /// The heat was made without its exposure.
     pub fn new(heat: &Heat<D>) -> Result<Self, NoExposure> {
-        let potential = potential(heat).ok_or(NoExposure)?;
+        let potential = potential(heat)?;
         let (mask, sources) = (heat.mask().clone(), heat.sources().clone());
         let shape = *mask.shape();
         let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
@@ -269,8 +264,14 @@ impl<const D: usize> Descent<D> {
 /// change no path, but they are close to `r^2 / 4t` near the source as well as far from it: central
 /// differences and interpolation are nearly exact for such a function, and paths come straight into
 /// the source.
-fn potential<const D: usize>(heat: &Heat<D>) -> Option<Grid<f64, D>> {
+///
+/// Of implicit heat the potential is the square of the distance at which it would be as large in a
+/// uniform medium.
+fn potential<const D: usize>(heat: &Heat<D>) -> Result<Grid<f64, D>, NoExposure> {
     let exposure = heat.ln_exposure()?;
+    if heat.scheme() == Scheme::Implicit {
+        return Ok(implicit_potential(heat, exposure));
+    }
     let speeds = heat.speeds_sq.iter().zip(&heat.amounts);
     let scale =
         speeds.map(|(speed_sq, amount)| 4.0 * PI * speed_sq / amount).fold(f64::MAX, f64::min);
@@ -279,7 +280,7 @@ fn potential<const D: usize>(heat: &Heat<D>) -> Option<Grid<f64, D>> {
     // Where heat is trapped around its source, exp(-exposure) would leave the range of numbers.
     let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let ln_unit = unit.ln().min(30_f64.ln() - highest);
-    Some(exposure.map(|&ln_exposure| {
+    Ok(exposure.map(|&ln_exposure| {
         let ln = ln_exposure + ln_unit;
         if ln == f64::NEG_INFINITY {
             f64::INFINITY
@@ -291,6 +292,22 @@ fn potential<const D: usize>(heat: &Heat<D>) -> Option<Grid<f64, D>> {
             (-2.0 * ln).exp().ln_1p()
         }
     }))
+}
+
+fn implicit_potential<const D: usize>(heat: &Heat<D>, exposure: &Grid<f64, D>) -> Grid<f64, D> {
+    let dimension = heat.shape().dimension();
+    let matern = Matern { dimension, steps: heat.iterations(), sum: true };
+    let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // Where heat is trapped around its source, there would be no such distance.
+    let strength = heat.ln_reference().max(highest - matern.ln(1e-4).0);
+    let mut last = 1.0;
+    exposure.map(|&ln_exposure| {
+        if ln_exposure == f64::NEG_INFINITY {
+            return f64::INFINITY;
+        }
+        last = matern.distance(ln_exposure - strength, last);
+        last * last
+    })
 }
 
 /// `-ln(1 - exp(-a))` for `a = exp(ln_a)`, accurate for all of them: it is close to `exp(-a)` for

@@ -104,6 +104,12 @@ impl<const D: usize> Shape<D> {
         self.size.iter().product()
     }
 
+    /// The number of axes along which there is more than one cell.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.size.iter().filter(|&&side| side > 1).count()
+    }
+
     /// How far apart in memory two neighbours along `axis` are.
     #[must_use]
     pub fn stride(&self, axis: usize) -> usize {

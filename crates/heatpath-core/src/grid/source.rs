@@ -89,6 +89,12 @@ impl<const D: usize> Sources<D> {
         &self.points
     }
 
+    /// Each of the points as a set of its own.
+    #[must_use]
+    pub fn each(&self) -> Vec<Self> {
+        self.points.iter().map(|&point| Self { points: vec![point] }).collect()
+    }
+
     /// The values of `image` at the sources, by multilinear interpolation.
     #[must_use]
     pub fn values(&self, image: &Grid<f64, D>) -> Vec<f64> {

@@ -1,7 +1,10 @@
 //! Distances from the sources.
 
+pub(super) mod matern;
+mod matrix;
 mod varadhan;
 
+pub use matrix::distance_matrix;
 pub use varadhan::{normalized, varadhan};
 
 use super::{Grid, Shape};
@@ -45,17 +48,26 @@ impl<const D: usize> DistanceMap<D> {
     /// reached; [`NOT_REACHED`] if the cell around the point was not.
     #[must_use]
     pub fn at(&self, point: [f64; D]) -> f64 {
-        if self.field[self.shape().cell_at(point)].is_infinite() {
-            return NOT_REACHED;
-        }
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (cell, weight) in super::sample::corners(self.shape(), point) {
-            let distance = self.field.values()[cell];
-            if distance.is_finite() {
-                sum += weight * distance;
-                weights += weight;
-            }
-        }
-        sum / weights
+        interpolated(self.shape(), point, |cell| self.field.values()[cell])
     }
+}
+
+/// The distance at `point`, interpolated between those of the cells around it that were reached.
+fn interpolated<const D: usize>(
+    shape: &Shape<D>,
+    point: [f64; D],
+    mut distance: impl FnMut(usize) -> f64,
+) -> f64 {
+    if distance(shape.position(shape.cell_at(point))).is_infinite() {
+        return NOT_REACHED;
+    }
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (cell, weight) in super::sample::corners(shape, point) {
+        let distance = distance(cell);
+        if distance.is_finite() {
+            sum += weight * distance;
+            weights += weight;
+        }
+    }
+    sum / weights
 }

@@ -1,24 +1,71 @@
 //! Heat: `u_t = k div(D grad u)` from point sources.
 //!
-//! [`Explicit`] marches in time. Its result, [`Heat`], holds two fields in logarithms, because heat
-//! decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
+//! [`Explicit`] marches in time; [`Implicit`] solves for a time at once, many sources at a time. The
+//! result, [`Heat`], holds two fields in logarithms, because heat decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
 //! temperature u at the end, and the exposure, which is u added up over all steps.
 //!
 //! Time and step are given in cell units: multiples of the smallest spacing squared, so that they
 //! do not depend on the unit of length.
 
 mod explicit;
+mod implicit;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
+pub use implicit::{Implicit, ImplicitError, ImplicitOptions};
 pub use operator::FaceMean;
 
 use super::source::shares;
 use super::{Grid, Mask, Shape, Sources};
+use crate::Exec;
+use thiserror::Error;
+
+/// How heat was made to flow, and so what its logarithm says about distances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// In many small steps: u is close to the heat kernel, `exp(-distance^2 / 4t)`.
+    Explicit,
+    /// In one or a few implicit steps: u is the resolvent, `exp(-distance / sqrt(step))`.
+    Implicit,
+}
+
+/// Heat in a prepared medium, from any sources: [`Explicit`] and [`Implicit`].
+pub trait HeatSolver<const D: usize> {
+    /// Why heat cannot flow.
+    type Error;
+
+    /// Lets heat flow from each of several sets of sources by itself.
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, Self::Error>;
+}
+
+impl<const D: usize> HeatSolver<D> for Explicit<'_, D> {
+    type Error = HeatError;
+
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, HeatError> {
+        sets.iter().map(|sources| self.flow(sources, exec)).collect()
+    }
+}
+
+impl<const D: usize> HeatSolver<D> for Implicit<'_, D> {
+    type Error = ImplicitError;
+
+    fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, ImplicitError> {
+        self.flow_many(sets, exec)
+    }
+}
+
+/// Heat was made without its exposure.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("the heat was made without its exposure, which paths follow: ask for it in the options")]
+pub struct NoExposure;
 
 /// What the heat has done.
 #[derive(Clone, Debug)]
 pub struct Heat<const D: usize> {
+    pub(crate) scheme: Scheme,
     pub(crate) sources: Sources<D>,
     pub(crate) mask: Mask<D>,
     /// The amount of heat that each source began with.
@@ -26,12 +73,19 @@ pub struct Heat<const D: usize> {
     /// The squared speed at each source.
     pub(crate) speeds_sq: Vec<f64>,
     pub(crate) ln_temperature: Grid<f64, D>,
+    /// `None` if it was not kept, and if it is the temperature of implicit heat.
     pub(crate) ln_exposure: Option<Grid<f64, D>>,
     pub(crate) iterations: usize,
     pub(crate) step: f64,
 }
 
 impl<const D: usize> Heat<D> {
+    /// How the heat was made to flow.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
     /// The size and spacing.
     #[must_use]
     pub fn shape(&self) -> &Shape<D> {
@@ -65,10 +119,18 @@ impl<const D: usize> Heat<D> {
     /// its neighbours, so each has a neighbour with more exposure. Paths climb it and cannot stop
     /// short. Its logarithm has the same limit as that of u in Varadhan's formula.
     ///
-    /// `None` if it was not kept ([`HeatOptions::exposure`]).
-    #[must_use]
-    pub fn ln_exposure(&self) -> Option<&Grid<f64, D>> {
-        self.ln_exposure.as_ref()
+    /// Of implicit heat the start does not
+    /// count: `u' - step L u' = u` gives `step L E = u_end - u_start` for the sum over the steps
+    /// alone. After one step it is the temperature itself.
+    ///
+    /// # Errors
+    /// It was not kept ([`HeatOptions::exposure`]).
+    pub fn ln_exposure(&self) -> Result<&Grid<f64, D>, NoExposure> {
+        match (&self.ln_exposure, self.scheme) {
+            (Some(exposure), _) => Ok(exposure),
+            (None, Scheme::Implicit) => Ok(&self.ln_temperature),
+            (None, Scheme::Explicit) => Err(NoExposure),
+        }
     }
 
     /// The number of time steps.
@@ -87,6 +149,33 @@ impl<const D: usize> Heat<D> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.step * self.iterations as f64
+    }
+
+    /// The logarithm of what u is compared with: of explicit heat the temperature at the warmest
+    /// source, of implicit heat the factor in front of the Matérn function around the strongest one,
+    /// `amount / (step speed^2)^(N/2)`.
+    pub(crate) fn ln_reference(&self) -> f64 {
+        match self.scheme {
+            Scheme::Explicit => {
+                self.ln_temperature_at_sources().into_iter().fold(f64::NEG_INFINITY, f64::max)
+            }
+            Scheme::Implicit => self.ln_strength(),
+        }
+    }
+
+    fn ln_strength(&self) -> f64 {
+        let (shape, unit) = (self.shape(), self.shape().smallest_spacing());
+        let dimension = shape.dimension() as f64;
+        // Axes with one cell do not count.
+        let ln_volume: f64 = (0..D)
+            .filter(|&axis| shape.size()[axis] > 1)
+            .map(|axis| (shape.spacing()[axis] / unit).ln())
+            .sum();
+        let sources = self.amounts.iter().zip(&self.speeds_sq);
+        sources
+            .map(|(amount, speed_sq)| amount.ln() - 0.5 * dimension * (self.step * speed_sq).ln())
+            .fold(f64::NEG_INFINITY, f64::max)
+            + ln_volume
     }
 
     /// The logarithm of the temperature at each source.

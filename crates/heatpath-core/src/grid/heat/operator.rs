@@ -82,6 +82,17 @@ impl<'a, const D: usize> Operator<'a, D> {
         self.medium.diffusion().is_none() && self.medium.mask().is_all_open()
     }
 
+    /// The conductance of the face between the cell at a position and the one before it along
+    /// `axis`.
+    pub(super) fn conductance(&self, axis: usize, cell: usize) -> f64 {
+        let (shape, mask) = (self.medium.shape(), self.medium.mask());
+        if shape.index(cell)[axis] == 0 || !mask.is_open(cell) {
+            return 0.0;
+        }
+        let before = cell - shape.stride(axis);
+        if mask.is_open(before) { self.between_open(axis, before) } else { 0.0 }
+    }
+
     /// The largest time step, in cell units, at which explicit heat stays positive and stable:
     /// one over the largest `k x sum of conductances` of any cell.
     ///

@@ -9,11 +9,11 @@ mod schedule;
 mod stencil;
 
 use super::operator::{FaceMean, Operator};
-use super::{Heat, shares};
+use super::{Heat, Scheme, shares};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::Sources;
 use crate::grid::medium::Medium;
-use schedule::{Fields, Scheme, Tiles, Tiling};
+use schedule::{Fields, Steps, Tiles, Tiling};
 use stencil::Stencil;
 use thiserror::Error;
 
@@ -239,16 +239,17 @@ impl<'a, const D: usize> Explicit<'a, D> {
                 shares(mask, point).into_iter().map(move |(cell, weight)| (cell, amount * weight))
             })
             .collect();
-        let scheme = Scheme {
+        let steps = Steps {
             stencil: &self.stencil,
             factor: self.medium.factor(),
             step: self.step,
             iterations: self.iterations,
             exposure: self.exposure,
         };
-        let (ln_temperature, ln_exposure) = self.march(&scheme, &shares, report, exec)?;
+        let (ln_temperature, ln_exposure) = self.march(&steps, &shares, report, exec)?;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
         Ok(Heat {
+            scheme: Scheme::Explicit,
             sources: sources.clone(),
             mask: mask.clone(),
             amounts,
@@ -263,7 +264,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Tries ever smaller tiles until they hold the range of the values.
     fn march(
         &self,
-        scheme: &Scheme<f64, D>,
+        steps: &Steps<f64, D>,
         shares: &[(usize, f64)],
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
@@ -271,7 +272,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         for tiling in Tiling::all() {
             let mut heat = Tiles::new(self.medium.shape(), tiling);
             shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
-            match heat.march(scheme, report, exec)? {
+            match heat.march(steps, report, exec)? {
                 Some(fields) if !self.has_lost_heat(fields.0.values(), shares) => {
                     return Ok(fields);
                 }

@@ -17,7 +17,7 @@ use crate::simd::{Lanes, Real, WithLanes};
 use std::sync::Mutex;
 
 /// The scheme and its time step.
-pub(super) struct Scheme<'a, T, const D: usize> {
+pub(super) struct Steps<'a, T, const D: usize> {
     pub(super) stencil: &'a Stencil<T, D>,
     /// k, or `None` for 1.
     pub(super) factor: Option<&'a Grid<f64, D>>,
@@ -134,25 +134,24 @@ impl<const D: usize> Tiles<D> {
     /// Lets heat flow; `None` if a tile cannot hold the range of its values.
     pub(super) fn march<T: Real>(
         mut self,
-        scheme: &Scheme<T, D>,
+        steps: &Steps<T, D>,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Option<Fields<D>>, Cancelled> {
         for (visited, now) in self.visited.iter_mut().zip(&self.now) {
-            if scheme.exposure {
+            if steps.exposure {
                 visited.exposure = now.heat.clone();
             }
         }
-        let windows: Vec<_> =
-            (0..exec.threads()).map(|_| Mutex::new(self.window(scheme))).collect();
+        let windows: Vec<_> = (0..exec.threads()).map(|_| Mutex::new(self.window(steps))).collect();
         let mut done = 0;
-        while done < scheme.iterations {
-            report(done as f64 / scheme.iterations as f64)?;
-            let count = self.tiling.steps.min(scheme.iterations - done);
+        while done < steps.iterations {
+            report(done as f64 / steps.iterations as f64)?;
+            let count = self.tiling.steps.min(steps.iterations - done);
             let mut visited = std::mem::take(&mut self.visited);
-            exec.for_each(&mut visited, &windows, |window, tile| {
+            exec.for_each_with(&mut visited, &windows, |window, tile| {
                 let tiles = &self;
-                T::with_lanes(exec.simd(), Visit { tiles, scheme, count, tile, window });
+                T::with_lanes(exec.simd(), Visit { tiles, steps, count, tile, window });
             });
             let mut has_lost = false;
             for (visited, now) in visited.iter_mut().zip(&mut self.now) {
@@ -168,18 +167,18 @@ impl<const D: usize> Tiles<D> {
         let exposure: Vec<_> = self.visited.into_iter().map(|visited| visited.exposure).collect();
         let temperature = self.now.into_iter().map(|now| now.heat).collect();
         let (shape, tiling) = (self.shape, self.tiling);
-        let exposure = scheme.exposure.then(|| logarithms(shape, tiling, exposure, exec));
+        let exposure = steps.exposure.then(|| logarithms(shape, tiling, exposure, exec));
         Ok(Some((logarithms(shape, tiling, temperature, exec), exposure)))
     }
 
     /// Where a thread advances its tile.
-    fn window<T: Real>(&self, scheme: &Scheme<T, D>) -> Window<T, D> {
-        let Tiling { edge, steps } = self.tiling;
+    fn window<T: Real>(&self, steps: &Steps<T, D>) -> Window<T, D> {
+        let Tiling { edge, steps: margin } = self.tiling;
         let room =
-            std::array::from_fn(|axis| edge[axis] + 2 * if axis == 0 { MARGIN_X } else { steps });
-        let mut window = Window::new(room, steps, scheme.exposure);
-        window.rate.fill(T::from_f64(scheme.step));
-        window.rate_is_uniform = scheme.factor.is_none();
+            std::array::from_fn(|axis| edge[axis] + 2 * if axis == 0 { MARGIN_X } else { margin });
+        let mut window = Window::new(room, margin, steps.exposure);
+        window.rate.fill(T::from_f64(steps.step));
+        window.rate_is_uniform = steps.factor.is_none();
         window
     }
 
@@ -238,7 +237,7 @@ impl<const D: usize> Tiles<D> {
 /// Advances one tile by `count` steps.
 struct Visit<'a, T, const D: usize> {
     tiles: &'a Tiles<D>,
-    scheme: &'a Scheme<'a, T, D>,
+    steps: &'a Steps<'a, T, D>,
     count: usize,
     tile: &'a mut Visited,
     window: &'a mut Window<T, D>,
@@ -249,7 +248,7 @@ impl<T: Real, const D: usize> WithLanes<T> for Visit<'_, T, D> {
 
     #[inline(always)]
     fn run<L: Lanes<T>>(self, lanes: L) {
-        let Self { tiles, scheme, count, tile, window } = self;
+        let Self { tiles, steps, count, tile, window } = self;
         let inside = tiles.range_of(tile.number);
         let around = tiles.around(inside, count);
         let Some(exponent) = tiles.exponent(tile.number, around) else {
@@ -257,11 +256,11 @@ impl<T: Real, const D: usize> WithLanes<T> for Visit<'_, T, D> {
             return;
         };
         let extent = tiles.extent(inside, around);
-        tiles.load(around, extent.low, exponent, scheme, window);
-        window.advance(lanes, scheme.stencil, &extent, count);
+        tiles.load(around, extent.low, exponent, steps, window);
+        window.advance(lanes, steps.stencil, &extent, count);
         tile.has_lost = tiles.store(inside, extent.low, window, &mut tile.next);
         tile.next.heat.exponent = exponent;
-        if scheme.exposure {
+        if steps.exposure {
             tiles.add_exposure(inside, extent.low, window, exponent, &mut tile.exposure);
         }
     }
@@ -302,7 +301,7 @@ impl<const D: usize> Tiles<D> {
         range: Range<D>,
         low: [usize; D],
         exponent: i32,
-        scheme: &Scheme<T, D>,
+        steps: &Steps<T, D>,
         window: &mut Window<T, D>,
     ) {
         for row in range.rows() {
@@ -310,16 +309,16 @@ impl<const D: usize> Tiles<D> {
             let (to, n) = (start + row[0] - low[0], range.row_length());
             window.u[start..to].fill(T::default());
             window.u[to + n..start + stride].fill(T::default());
-            if scheme.exposure {
+            if steps.exposure {
                 window.sum[start..start + stride].fill(T::default());
             }
-            if let Some(factor) = scheme.factor {
+            if let Some(factor) = steps.factor {
                 // No factor beyond the range: with the faces there, any other could be unstable.
                 window.rate[start..to].fill(T::default());
                 window.rate[to + n..start + stride].fill(T::default());
                 let factors = &factor.values()[self.shape.position(row)..];
                 let rates = window.rate[to..to + n].iter_mut().zip(factors);
-                rates.for_each(|(rate, k)| *rate = T::from_f64(scheme.step * k));
+                rates.for_each(|(rate, k)| *rate = T::from_f64(steps.step * k));
             }
         }
         for tile in self.tiles_around(range) {
@@ -401,8 +400,7 @@ fn logarithms<const D: usize>(
     let cells = tiling.edge[D - 1] * shape.stride(D - 1);
     let layers = heat.chunks_mut(tiles.tiles.stride(D - 1)).zip(field.chunks_mut(cells));
     let mut layers: Vec<_> = layers.enumerate().collect();
-    let scratch: Vec<_> = (0..exec.threads()).map(|_| Mutex::new(())).collect();
-    exec.for_each(&mut layers, &scratch, |(), (layer, (heat, field))| {
+    exec.for_each(&mut layers, |(layer, (heat, field))| {
         for (number, heat) in heat.iter_mut().enumerate() {
             let range = tiles.range_of(number + *layer * tiles.tiles.stride(D - 1));
             let heat = std::mem::take(heat);
