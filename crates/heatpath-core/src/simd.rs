@@ -1,7 +1,7 @@
 //! Vector instructions, chosen when the program runs.
 //!
 //! Two doors. [`SimdLevel::run`] compiles a plain loop once for each level and leaves the vectors to
-//! the compiler: enough for loops that read each slice at one place. [`Real::with_lanes`] hands out
+//! the compiler: enough for loops that read each slice at one place. [`SimdLevel::with_lanes`] hands out
 //! [`Lanes`], vectors with names, for the stencil, whose neighbours along a row are lanes of the
 //! same or the next vector.
 //!
@@ -10,8 +10,8 @@
 //! lanes that every processor of the target has (SSE2, NEON).
 
 use bytemuck::Pod;
-use std::ops::AddAssign;
-use wide::{f32x4, f64x2, f64x8};
+use std::ops::{Deref, DerefMut};
+use wide::{f64x2, f64x8};
 
 #[cfg(target_arch = "x86_64")]
 use bytemuck::cast;
@@ -64,6 +64,32 @@ impl SimdLevel {
         }
     }
 
+    /// Runs `work` with the lanes of this level.
+    #[inline(always)]
+    pub(crate) fn with_lanes<W: WithLanes>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        match self {
+            Self::Avx512 => {
+                if let Some(lanes) = V4::try_new() {
+                    return lanes.vectorize(
+                        #[inline(always)]
+                        || work.run(lanes),
+                    );
+                }
+            }
+            Self::Avx2 => {
+                if let Some(lanes) = V3::try_new() {
+                    return lanes.vectorize(
+                        #[inline(always)]
+                        || work.run(lanes),
+                    );
+                }
+            }
+            Self::Baseline => {}
+        }
+        work.run(Portable)
+    }
+
     /// Runs `work` compiled for this level: whatever is inlined into it uses its instructions.
     #[inline(always)]
     pub(crate) fn run<R>(self, work: impl FnOnce() -> R) -> R {
@@ -85,14 +111,13 @@ impl SimdLevel {
     }
 }
 
-/// A vector of floating-point numbers and what the stencil does with it.
+/// A vector of numbers and what the stencil does with it.
 ///
 /// Every operation rounds as the same operation on single numbers does, and there is no fused
 /// multiply-add, so results are the same bits at every level.
-pub(crate) trait Lanes<T>: Copy {
-    /// The numbers; as large and as aligned as a plain array of them, or less.
+pub(crate) trait Lanes: Copy {
     type Vector: Pod;
-    fn splat(self, value: T) -> Self::Vector;
+    fn splat(self, value: f64) -> Self::Vector;
     fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
@@ -105,145 +130,75 @@ pub(crate) trait Lanes<T>: Copy {
 }
 
 /// Work that is compiled once for each level.
-pub(crate) trait WithLanes<T> {
+pub(crate) trait WithLanes {
     type Output;
     /// Must be `#[inline(always)]`, as must be what it calls in its inner loops: only what is inlined
     /// into it uses the level's instructions.
-    fn run<L: Lanes<T>>(self, lanes: L) -> Self::Output;
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output;
 }
-
-/// A floating-point type that has [`Lanes`].
-pub(crate) trait Real: Pod + Default + AddAssign + Send + Sync {
-    /// Runs `work` with the lanes of `level`.
-    fn with_lanes<W: WithLanes<Self>>(level: SimdLevel, work: W) -> W::Output;
-    fn from_f64(value: f64) -> Self;
-    fn to_f64(self) -> f64;
-}
-
-macro_rules! impl_real {
-    ($real:ty) => {
-        impl Real for $real {
-            #[inline(always)]
-            fn with_lanes<W: WithLanes<Self>>(level: SimdLevel, work: W) -> W::Output {
-                #[cfg(target_arch = "x86_64")]
-                match level {
-                    SimdLevel::Avx512 => {
-                        if let Some(lanes) = V4::try_new() {
-                            return lanes.vectorize(
-                                #[inline(always)]
-                                || work.run(lanes),
-                            );
-                        }
-                    }
-                    SimdLevel::Avx2 => {
-                        if let Some(lanes) = V3::try_new() {
-                            return lanes.vectorize(
-                                #[inline(always)]
-                                || work.run(lanes),
-                            );
-                        }
-                    }
-                    SimdLevel::Baseline => {}
-                }
-                let _ = level;
-                work.run(Portable)
-            }
-
-            #[inline(always)]
-            fn from_f64(value: f64) -> Self {
-                value as Self
-            }
-
-            #[inline(always)]
-            fn to_f64(self) -> f64 {
-                f64::from(self)
-            }
-        }
-    };
-}
-
-impl_real!(f64);
-impl_real!(f32);
 
 /// The lanes that every processor of the target has.
 #[derive(Clone, Copy)]
 struct Portable;
 
-macro_rules! impl_portable {
-    ($real:ty, $vector:ty, |$low:ident, $high:ident| $before:expr, $after:expr) => {
-        impl Lanes<$real> for Portable {
-            type Vector = $vector;
+impl Lanes for Portable {
+    type Vector = f64x2;
 
-            #[inline(always)]
-            fn splat(self, value: $real) -> Self::Vector {
-                <$vector>::splat(value)
-            }
+    #[inline(always)]
+    fn splat(self, value: f64) -> f64x2 {
+        f64x2::splat(value)
+    }
 
-            #[inline(always)]
-            fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                a + b
-            }
+    #[inline(always)]
+    fn add(self, a: f64x2, b: f64x2) -> f64x2 {
+        a + b
+    }
 
-            #[inline(always)]
-            fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                a - b
-            }
+    #[inline(always)]
+    fn sub(self, a: f64x2, b: f64x2) -> f64x2 {
+        a - b
+    }
 
-            #[inline(always)]
-            fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                a * b
-            }
+    #[inline(always)]
+    fn mul(self, a: f64x2, b: f64x2) -> f64x2 {
+        a * b
+    }
 
-            #[inline(always)]
-            fn one_before(self, before: Self::Vector, here: Self::Vector) -> Self::Vector {
-                let ($low, $high) = (before.to_array(), here.to_array());
-                <$vector>::from($before)
-            }
+    #[inline(always)]
+    fn one_before(self, before: f64x2, here: f64x2) -> f64x2 {
+        f64x2::from([before.to_array()[1], here.to_array()[0]])
+    }
 
-            #[inline(always)]
-            fn one_after(self, here: Self::Vector, after: Self::Vector) -> Self::Vector {
-                let ($low, $high) = (here.to_array(), after.to_array());
-                <$vector>::from($after)
-            }
-        }
-    };
+    #[inline(always)]
+    fn one_after(self, here: f64x2, after: f64x2) -> f64x2 {
+        f64x2::from([here.to_array()[1], after.to_array()[0]])
+    }
 }
 
-impl_portable!(f64, f64x2, |low, high| [low[1], high[0]], [low[1], high[0]]);
-impl_portable!(
-    f32,
-    f32x4,
-    |low, high| [low[3], high[0], high[1], high[2]],
-    [low[1], low[2], low[3], high[0]]
-);
-
 #[cfg(target_arch = "x86_64")]
-macro_rules! impl_x86 {
-    (
-        $level:ty, $real:ty, $vector:ident, $splat:ident, $add:ident, $sub:ident, $mul:ident,
-        |$simd:ident, $low:ident, $high:ident| $before:expr, $after:expr
-    ) => {
-        impl Lanes<$real> for $level {
-            type Vector = <$level as Simd>::$vector;
+macro_rules! impl_lanes {
+    ($level:ty, |$simd:ident, $low:ident, $high:ident| $before:expr, $after:expr) => {
+        impl Lanes for $level {
+            type Vector = <$level as Simd>::f64s;
 
             #[inline(always)]
-            fn splat(self, value: $real) -> Self::Vector {
-                Simd::$splat(self, value)
+            fn splat(self, value: f64) -> Self::Vector {
+                self.splat_f64s(value)
             }
 
             #[inline(always)]
             fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                Simd::$add(self, a, b)
+                self.add_f64s(a, b)
             }
 
             #[inline(always)]
             fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                Simd::$sub(self, a, b)
+                self.sub_f64s(a, b)
             }
 
             #[inline(always)]
             fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector {
-                Simd::$mul(self, a, b)
+                self.mul_f64s(a, b)
             }
 
             #[inline(always)]
@@ -261,6 +216,20 @@ macro_rules! impl_x86 {
     };
 }
 
+#[cfg(target_arch = "x86_64")]
+impl_lanes!(
+    V4,
+    |simd, low, high| simd.avx512f._mm512_alignr_epi64::<7>(cast(high), cast(low)),
+    simd.avx512f._mm512_alignr_epi64::<1>(cast(high), cast(low))
+);
+
+#[cfg(target_arch = "x86_64")]
+impl_lanes!(
+    V3,
+    |simd, low, high| simd.avx._mm256_shuffle_pd::<0b0101>(middle(simd, low, high), cast(high)),
+    simd.avx._mm256_shuffle_pd::<0b0101>(cast(low), middle(simd, low, high))
+);
+
 /// The upper half of `low`, then the lower half of `high`.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
@@ -268,84 +237,31 @@ fn middle<V: Pod>(simd: V3, low: V, high: V) -> std::arch::x86_64::__m256d {
     simd.avx._mm256_permute2f128_pd::<0x21>(cast(low), cast(high))
 }
 
-#[cfg(target_arch = "x86_64")]
-impl_x86!(
-    V4,
-    f64,
-    f64s,
-    splat_f64s,
-    add_f64s,
-    sub_f64s,
-    mul_f64s,
-    |simd, low, high| simd.avx512f._mm512_alignr_epi64::<7>(cast(high), cast(low)),
-    simd.avx512f._mm512_alignr_epi64::<1>(cast(high), cast(low))
-);
-#[cfg(target_arch = "x86_64")]
-impl_x86!(
-    V4,
-    f32,
-    f32s,
-    splat_f32s,
-    add_f32s,
-    sub_f32s,
-    mul_f32s,
-    |simd, low, high| simd.avx512f._mm512_alignr_epi32::<15>(cast(high), cast(low)),
-    simd.avx512f._mm512_alignr_epi32::<1>(cast(high), cast(low))
-);
-#[cfg(target_arch = "x86_64")]
-impl_x86!(
-    V3,
-    f64,
-    f64s,
-    splat_f64s,
-    add_f64s,
-    sub_f64s,
-    mul_f64s,
-    |simd, low, high| simd.avx._mm256_shuffle_pd::<0b0101>(middle(simd, low, high), cast(high)),
-    simd.avx._mm256_shuffle_pd::<0b0101>(cast(low), middle(simd, low, high))
-);
-#[cfg(target_arch = "x86_64")]
-impl_x86!(
-    V3,
-    f32,
-    f32s,
-    splat_f32s,
-    add_f32s,
-    sub_f32s,
-    mul_f32s,
-    |simd, low, high| {
-        simd.avx2._mm256_alignr_epi8::<12>(cast(high), cast(middle(simd, low, high)))
-    },
-    simd.avx2._mm256_alignr_epi8::<4>(cast(middle(simd, low, high)), cast(low))
-);
-
 /// Numbers that begin at a cache line, so that no vector straddles two.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Aligned<T> {
+pub(crate) struct Aligned {
     lines: Vec<f64x8>,
-    _numbers: std::marker::PhantomData<T>,
 }
 
-impl<T: Pod> Aligned<T> {
+impl Aligned {
     /// At least `len` zeros.
     pub(crate) fn zeros(len: usize) -> Self {
-        let lines = vec![f64x8::ZERO; (len * size_of::<T>()).div_ceil(size_of::<f64x8>())];
-        Self { lines, _numbers: std::marker::PhantomData }
+        Self { lines: vec![f64x8::ZERO; len.div_ceil(8)] }
     }
 }
 
-impl<T: Pod> std::ops::Deref for Aligned<T> {
-    type Target = [T];
+impl Deref for Aligned {
+    type Target = [f64];
 
     #[inline(always)]
-    fn deref(&self) -> &[T] {
+    fn deref(&self) -> &[f64] {
         bytemuck::cast_slice(&self.lines)
     }
 }
 
-impl<T: Pod> std::ops::DerefMut for Aligned<T> {
+impl DerefMut for Aligned {
     #[inline(always)]
-    fn deref_mut(&mut self) -> &mut [T] {
+    fn deref_mut(&mut self) -> &mut [f64] {
         bytemuck::cast_slice_mut(&mut self.lines)
     }
 }
@@ -355,25 +271,20 @@ mod tests {
     use super::*;
 
     /// Checks every operation of a level against plain numbers.
-    struct Check<T>(Vec<T>);
+    struct Check(Vec<f64>);
 
-    impl<T: Real> WithLanes<T> for Check<T> {
+    impl WithLanes for Check {
         type Output = usize;
 
         #[inline(always)]
-        fn run<L: Lanes<T>>(self, lanes: L) -> usize {
-            let n = size_of::<L::Vector>() / size_of::<T>();
-            let vector = |from: usize| {
-                bytemuck::pod_read_unaligned::<L::Vector>(bytemuck::cast_slice(
-                    &self.0[from..from + n],
-                ))
+        fn run<L: Lanes>(self, lanes: L) -> usize {
+            let n = size_of::<L::Vector>() / size_of::<f64>();
+            let given = &self.0;
+            let vector = |from: usize| -> L::Vector {
+                bytemuck::pod_read_unaligned(bytemuck::cast_slice(&given[from..from + n]))
             };
-            let numbers =
-                |vector: L::Vector| -> Vec<T> { bytemuck::cast_slice(&[vector]).to_vec() };
-            let (low, high): (L::Vector, L::Vector) = (vector(0), vector(n));
-            let plain =
-                |vector| -> Vec<f64> { numbers(vector).into_iter().map(T::to_f64).collect() };
-            let given: Vec<f64> = self.0.iter().map(|number| number.to_f64()).collect();
+            let plain = |vector: L::Vector| bytemuck::cast_slice::<_, f64>(&[vector]).to_vec();
+            let (low, high) = (vector(0), vector(n));
             assert_eq!(plain(lanes.one_before(low, high)), given[n - 1..2 * n - 1]);
             assert_eq!(plain(lanes.one_after(low, high)), given[1..=n]);
             let expected = |operation: fn(f64, f64) -> f64| -> Vec<f64> {
@@ -382,28 +293,26 @@ mod tests {
             assert_eq!(plain(lanes.add(low, high)), expected(|a, b| a + b));
             assert_eq!(plain(lanes.sub(low, high)), expected(|a, b| a - b));
             assert_eq!(plain(lanes.mul(low, high)), expected(|a, b| a * b));
-            assert_eq!(plain(lanes.splat(self.0[3])), vec![given[3]; n]);
+            assert_eq!(plain(lanes.splat(given[3])), vec![given[3]; n]);
             n
         }
     }
 
     #[test]
     fn lanes_do_what_plain_numbers_do() {
-        let numbers = || (0..32).map(|i| 1.0 + 0.375 * f64::from(i * i % 37));
-        for level in [SimdLevel::Baseline, SimdLevel::Avx2, SimdLevel::Avx512] {
-            if level > SimdLevel::best() {
-                continue;
+        let numbers: Vec<_> = (0..16).map(|i| 1.0 + 0.375 * f64::from(i * i % 37)).collect();
+        for (level, lanes) in
+            [(SimdLevel::Baseline, 2), (SimdLevel::Avx2, 4), (SimdLevel::Avx512, 8)]
+        {
+            if level <= SimdLevel::best() {
+                assert_eq!(level.with_lanes(Check(numbers.clone())), lanes);
             }
-            let bytes = 16 << level as usize;
-            assert_eq!(f64::with_lanes(level, Check(numbers().collect())), bytes / 8);
-            let singles = numbers().map(|number| number as f32).collect();
-            assert_eq!(f32::with_lanes(level, Check::<f32>(singles)), bytes / 4);
         }
     }
 
     #[test]
     fn aligned_numbers_begin_at_a_cache_line() {
-        let numbers = Aligned::<f32>::zeros(33);
+        let numbers = Aligned::zeros(33);
         assert_eq!(numbers.as_ptr().align_offset(64), 0);
         assert!(numbers.len() >= 33 && numbers.iter().all(|&number| number == 0.0));
     }

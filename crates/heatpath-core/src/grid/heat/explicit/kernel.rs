@@ -1,7 +1,7 @@
 //! Explicit heat: one row, and the order of rows when several steps are made at once.
 
 use super::stencil::{ROW_MULTIPLE, Stencil};
-use crate::simd::{Aligned, Lanes, Real};
+use crate::simd::{Aligned, Lanes};
 use bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::Range;
 
@@ -32,7 +32,7 @@ impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
     /// operations gives the same bits for a picture and its mirror image, and for a picture and its
     /// transpose.
     #[inline(always)]
-    fn step<T: Real, const SUM: bool>(self, lanes: impl Lanes<T, Vector = V>) {
+    fn step<const SUM: bool>(self, lanes: impl Lanes<Vector = V>) {
         let Self { u, rate, mut faces, next: [next_y, next_z], .. } = self;
         let [inflow_y, inflow_z] = self.inflow;
         // One length for all, seen by the compiler, leaves no bounds to check in the loop.
@@ -45,7 +45,7 @@ impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
         let inflow = [&mut inflow_y[..n], &mut inflow_z[..n]];
         let sum = &mut self.sum[..if SUM { n } else { 0 }];
         let rate = &rate[..n];
-        let zero = lanes.splat(T::default());
+        let zero = lanes.splat(0.0);
         let (mut here, mut flux_before) = (u[0], zero);
         for i in 0..n {
             let after = u[i + 1];
@@ -67,22 +67,22 @@ impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
 }
 
 /// Part of the grid, copied to where it can be advanced by several steps.
-pub(super) struct Window<T, const D: usize> {
+pub(super) struct Window<const D: usize> {
     /// The numbers from one row to the next along each axis but x (0 along x).
     strides: [usize; D],
     /// How many steps it can be advanced by.
     steps: usize,
-    pub(super) u: Aligned<T>,
+    pub(super) u: Aligned,
     /// `step x k` of every cell, or of one row if it is the same everywhere.
-    pub(super) rate: Aligned<T>,
+    pub(super) rate: Aligned,
     pub(super) rate_is_uniform: bool,
     /// u added up over the steps, in the rows that are right to the last step; empty if not wanted.
-    pub(super) sum: Aligned<T>,
+    pub(super) sum: Aligned,
     /// What flows from one row to the next along the last axis, for each step and each row of a
     /// plane.
-    inflow_last: Aligned<T>,
+    inflow_last: Aligned,
     /// What flows from one row to the next along the axis between the first and the last.
-    inflow_middle: Aligned<T>,
+    inflow_middle: Aligned,
 }
 
 /// What a window holds.
@@ -115,7 +115,7 @@ impl<const D: usize> Extent<D> {
     }
 }
 
-impl<T: Real, const D: usize> Window<T, D> {
+impl<const D: usize> Window<D> {
     pub(super) fn new(room: [usize; D], steps: usize, with_sum: bool) -> Self {
         // Behind the last row along each axis one more is read, through faces without conductance.
         let mut strides = [0; D];
@@ -154,15 +154,15 @@ impl<T: Real, const D: usize> Window<T, D> {
     /// step, one row later, follows the second, and so on. So a row is read from cache by all steps
     /// but the first.
     #[inline(always)]
-    pub(super) fn advance<L: Lanes<T>>(
+    pub(super) fn advance<L: Lanes>(
         &mut self,
         lanes: L,
-        stencil: &Stencil<T, D>,
+        stencil: &Stencil<D>,
         extent: &Extent<D>,
         steps: usize,
     ) {
         debug_assert!(steps <= self.steps);
-        self.inflow_last.fill(T::default());
+        self.inflow_last.fill(0.0);
         for front in 0..extent.size[D - 1] + steps - 1 {
             for step in 0..steps.min(front + 1) {
                 if extent.computed(D - 1, step).contains(&(front - step)) {
@@ -174,16 +174,16 @@ impl<T: Real, const D: usize> Window<T, D> {
 
     /// Makes one step of the rows whose last index is `plane`.
     #[inline(always)]
-    fn step_plane<L: Lanes<T>>(
+    fn step_plane<L: Lanes>(
         &mut self,
         lanes: L,
-        stencil: &Stencil<T, D>,
+        stencil: &Stencil<D>,
         extent: &Extent<D>,
         [plane, step]: [usize; 2],
         steps: usize,
     ) {
         let rows = if D == 2 { 0..1 } else { extent.computed(1, step) };
-        self.inflow_middle.fill(T::default());
+        self.inflow_middle.fill(0.0);
         for y in rows {
             let mut index = [0; D];
             index[1] = y;
@@ -198,10 +198,10 @@ impl<T: Real, const D: usize> Window<T, D> {
     }
 
     #[inline(always)]
-    fn step_row<L: Lanes<T>, const SUM: bool>(
+    fn step_row<L: Lanes, const SUM: bool>(
         &mut self,
         lanes: L,
-        stencil: &Stencil<T, D>,
+        stencil: &Stencil<D>,
         extent: &Extent<D>,
         index: [usize; D],
         step: usize,
@@ -234,6 +234,6 @@ impl<T: Real, const D: usize> Window<T, D> {
             inflow: if D == 2 { [last, middle] } else { [middle, last] },
             sum: if SUM { cast_slice_mut(&mut self.sum[start..start + numbers]) } else { &mut [] },
         }
-        .step::<T, SUM>(lanes);
+        .step::<SUM>(lanes);
     }
 }

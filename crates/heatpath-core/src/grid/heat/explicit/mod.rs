@@ -143,7 +143,7 @@ const MOST_ITERATIONS: f64 = 1e12;
 #[derive(Debug)]
 pub struct Explicit<'a, const D: usize> {
     medium: &'a Medium<D>,
-    stencil: Stencil<f64, D>,
+    stencil: Stencil<D>,
     iterations: usize,
     step: f64,
     exposure: bool,
@@ -264,7 +264,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// Tries ever smaller tiles until they hold the range of the values.
     fn march(
         &self,
-        steps: &Steps<f64, D>,
+        steps: &Steps<'_, D>,
         shares: &[(usize, f64)],
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,

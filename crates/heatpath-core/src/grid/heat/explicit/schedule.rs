@@ -13,12 +13,12 @@ use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
 use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
-use crate::simd::{Lanes, Real, WithLanes};
+use crate::simd::{Lanes, WithLanes};
 use std::sync::Mutex;
 
 /// The scheme and its time step.
-pub(super) struct Steps<'a, T, const D: usize> {
-    pub(super) stencil: &'a Stencil<T, D>,
+pub(super) struct Steps<'a, const D: usize> {
+    pub(super) stencil: &'a Stencil<D>,
     /// k, or `None` for 1.
     pub(super) factor: Option<&'a Grid<f64, D>>,
     pub(super) step: f64,
@@ -132,9 +132,9 @@ impl<const D: usize> Tiles<D> {
     }
 
     /// Lets heat flow; `None` if a tile cannot hold the range of its values.
-    pub(super) fn march<T: Real>(
+    pub(super) fn march(
         mut self,
-        steps: &Steps<T, D>,
+        steps: &Steps<D>,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Option<Fields<D>>, Cancelled> {
@@ -151,7 +151,7 @@ impl<const D: usize> Tiles<D> {
             let mut visited = std::mem::take(&mut self.visited);
             exec.for_each_with(&mut visited, &windows, |window, tile| {
                 let tiles = &self;
-                T::with_lanes(exec.simd(), Visit { tiles, steps, count, tile, window });
+                exec.simd().with_lanes(Visit { tiles, steps, count, tile, window });
             });
             let mut has_lost = false;
             for (visited, now) in visited.iter_mut().zip(&mut self.now) {
@@ -172,12 +172,12 @@ impl<const D: usize> Tiles<D> {
     }
 
     /// Where a thread advances its tile.
-    fn window<T: Real>(&self, steps: &Steps<T, D>) -> Window<T, D> {
+    fn window(&self, steps: &Steps<D>) -> Window<D> {
         let Tiling { edge, steps: margin } = self.tiling;
         let room =
             std::array::from_fn(|axis| edge[axis] + 2 * if axis == 0 { MARGIN_X } else { margin });
         let mut window = Window::new(room, margin, steps.exposure);
-        window.rate.fill(T::from_f64(steps.step));
+        window.rate.fill(steps.step);
         window.rate_is_uniform = steps.factor.is_none();
         window
     }
@@ -235,19 +235,19 @@ impl<const D: usize> Tiles<D> {
 }
 
 /// Advances one tile by `count` steps.
-struct Visit<'a, T, const D: usize> {
+struct Visit<'a, const D: usize> {
     tiles: &'a Tiles<D>,
-    steps: &'a Steps<'a, T, D>,
+    steps: &'a Steps<'a, D>,
     count: usize,
     tile: &'a mut Visited,
-    window: &'a mut Window<T, D>,
+    window: &'a mut Window<D>,
 }
 
-impl<T: Real, const D: usize> WithLanes<T> for Visit<'_, T, D> {
+impl<const D: usize> WithLanes for Visit<'_, D> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes<T>>(self, lanes: L) {
+    fn run<L: Lanes>(self, lanes: L) {
         let Self { tiles, steps, count, tile, window } = self;
         let inside = tiles.range_of(tile.number);
         let around = tiles.around(inside, count);
@@ -296,29 +296,29 @@ impl<const D: usize> Tiles<D> {
 
     /// Copies a range into the window that begins at `low`, scaled to an exponent.
     #[inline(always)]
-    fn load<T: Real>(
+    fn load(
         &self,
         range: Range<D>,
         low: [usize; D],
         exponent: i32,
-        steps: &Steps<T, D>,
-        window: &mut Window<T, D>,
+        steps: &Steps<D>,
+        window: &mut Window<D>,
     ) {
         for row in range.rows() {
             let (start, stride) = (window.row(offset(row, low)), window.row_stride());
             let (to, n) = (start + row[0] - low[0], range.row_length());
-            window.u[start..to].fill(T::default());
-            window.u[to + n..start + stride].fill(T::default());
+            window.u[start..to].fill(0.0);
+            window.u[to + n..start + stride].fill(0.0);
             if steps.exposure {
-                window.sum[start..start + stride].fill(T::default());
+                window.sum[start..start + stride].fill(0.0);
             }
             if let Some(factor) = steps.factor {
                 // No factor beyond the range: with the faces there, any other could be unstable.
-                window.rate[start..to].fill(T::default());
-                window.rate[to + n..start + stride].fill(T::default());
+                window.rate[start..to].fill(0.0);
+                window.rate[to + n..start + stride].fill(0.0);
                 let factors = &factor.values()[self.shape.position(row)..];
                 let rates = window.rate[to..to + n].iter_mut().zip(factors);
-                rates.for_each(|(rate, k)| *rate = T::from_f64(steps.step * k));
+                rates.for_each(|(rate, k)| *rate = steps.step * k);
             }
         }
         for tile in self.tiles_around(range) {
@@ -329,11 +329,11 @@ impl<const D: usize> Tiles<D> {
                 let to = window.row(offset(row, low)) + row[0] - low[0];
                 let cells = &mut window.u[to..to + part.row_length()];
                 if heat.values.is_empty() {
-                    cells.fill(T::default());
+                    cells.fill(0.0);
                 } else {
                     let values = &heat.values[self.place(row)..];
                     let cells = cells.iter_mut().zip(values);
-                    cells.for_each(|(u, value)| *u = T::from_f64(scale.apply(*value)));
+                    cells.for_each(|(u, value)| *u = scale.apply(*value));
                 }
             }
         }
@@ -341,11 +341,11 @@ impl<const D: usize> Tiles<D> {
 
     /// Adds what the window has summed up to the exposure of a tile.
     #[inline(always)]
-    fn add_exposure<T: Real>(
+    fn add_exposure(
         &self,
         inside: Range<D>,
         low: [usize; D],
-        window: &Window<T, D>,
+        window: &Window<D>,
         exponent: i32,
         exposure: &mut Scaled,
     ) {
@@ -355,17 +355,17 @@ impl<const D: usize> Tiles<D> {
             let from = window.row(offset(row, low)) + row[0] - low[0];
             let sums = &window.sum[from..from + inside.row_length()];
             let values = exposure.values[self.place(row)..].iter_mut();
-            values.zip(sums).for_each(|(value, sum)| *value += scale.apply(sum.to_f64()));
+            values.zip(sums).for_each(|(value, sum)| *value += scale.apply(*sum));
         }
     }
 
     /// Copies the cells of a tile out of the window; says whether some were too small to be kept.
     #[inline(always)]
-    fn store<T: Real>(
+    fn store(
         &self,
         inside: Range<D>,
         low: [usize; D],
-        window: &Window<T, D>,
+        window: &Window<D>,
         next: &mut Temperature,
     ) -> bool {
         let mut has_lost = false;
@@ -377,9 +377,8 @@ impl<const D: usize> Tiles<D> {
             let to = self.place(row);
             let values = &mut next.heat.values[to..to + cells.len()];
             for (value, u) in values.iter_mut().zip(cells) {
-                let u = u.to_f64();
-                *value = trusted(u);
-                has_lost |= u > *value;
+                *value = trusted(*u);
+                has_lost |= *u > *value;
             }
             next.largest = largest(values).max(next.largest);
         }

@@ -2,7 +2,7 @@
 
 use super::super::operator::Operator;
 use crate::grid::Shape;
-use crate::simd::{Aligned, Real};
+use crate::simd::Aligned;
 
 /// Rows of the kernel are a whole number of vectors of any level: 16 single or 8 double numbers.
 pub(super) const ROW_MULTIPLE: usize = 16;
@@ -12,21 +12,21 @@ pub(super) const ROW_MULTIPLE: usize = 16;
 /// Rows can be read beyond their last cell as far as the kernel's vectors go; there is nothing but
 /// faces without conductance there.
 #[derive(Debug)]
-pub(super) struct Stencil<T, const D: usize> {
+pub(super) struct Stencil<const D: usize> {
     shape: Shape<D>,
-    axes: [Faces<T>; D],
+    axes: [Faces; D],
 }
 
 /// The faces across one axis.
 #[derive(Debug)]
-enum Faces<T> {
+enum Faces {
     /// All faces inside the grid are equal: one row stands for all, and one for the border.
-    Uniform { inside: Aligned<T>, border: Aligned<T> },
+    Uniform { inside: Aligned, border: Aligned },
     /// A number a face.
-    Varying(Aligned<T>),
+    Varying(Aligned),
 }
 
-impl<T: Real, const D: usize> Stencil<T, D> {
+impl<const D: usize> Stencil<D> {
     pub(super) fn new(operator: &Operator<D>) -> Self {
         let shape = *operator.medium().shape();
         let faces = |axis| if operator.is_uniform() { uniform } else { varying }(operator, axis);
@@ -35,7 +35,7 @@ impl<T: Real, const D: usize> Stencil<T, D> {
 
     /// The conductances across `axis` behind the cells of a row: `n` numbers from `cell` on.
     #[inline(always)]
-    pub(super) fn row(&self, axis: usize, cell: [usize; D], n: usize) -> &[T] {
+    pub(super) fn row(&self, axis: usize, cell: [usize; D], n: usize) -> &[f64] {
         let numbers = match &self.axes[axis] {
             Faces::Uniform { border, .. }
                 if axis > 0 && cell[axis] + 1 == self.shape.size()[axis] =>
@@ -57,24 +57,24 @@ fn padded<const D: usize>(shape: &Shape<D>) -> usize {
     shape.size()[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE
 }
 
-fn uniform<T: Real, const D: usize>(operator: &Operator<D>, axis: usize) -> Faces<T> {
+fn uniform<const D: usize>(operator: &Operator<D>, axis: usize) -> Faces {
     let shape = operator.medium().shape();
     let width = shape.size()[0];
     let border = Aligned::zeros(padded(shape));
     let mut inside = border.clone();
     let last = if axis == 0 { width - 1 } else { width };
-    inside[..last].fill(T::from_f64(operator.uniform_conductance(axis)));
+    inside[..last].fill(operator.uniform_conductance(axis));
     Faces::Uniform { inside, border }
 }
 
-fn varying<T: Real, const D: usize>(operator: &Operator<D>, axis: usize) -> Faces<T> {
+fn varying<const D: usize>(operator: &Operator<D>, axis: usize) -> Faces {
     let shape = operator.medium().shape();
     let row_length = padded(shape);
     let mut faces = Aligned::zeros(shape.cells() / shape.size()[0] * row_length);
     for (number, row) in shape.rows().enumerate() {
         let numbers = faces[number * row_length..].iter_mut();
         let conductances = operator.conductances(axis, row);
-        numbers.zip(conductances).for_each(|(number, c)| *number = T::from_f64(c));
+        numbers.zip(conductances).for_each(|(number, c)| *number = c);
     }
     Faces::Varying(faces)
 }
