@@ -26,13 +26,13 @@ struct Kernel {
 }
 
 /// u, k and a conductance for each axis come in, the new u goes out; the exposure comes in and goes
-/// out. Each axis takes 6 operations, `g' (u' - u) - g (u - u")` and its sum; step and k take 3, the
-/// exposure 1. The limits take the bandwidth of the triad, without what the memory moves besides to
+/// out. Each axis takes 3 operations, `g (u' - u)` once and its difference from the flux before, and
+/// every axis but the first 1 to add it; k takes 2, the exposure 1. The limits take the bandwidth of the triad, without what the memory moves besides to
 /// fetch the lines that are written.
 const KERNELS: [Kernel; 3] = [
-    Kernel { name: "2-D", bytes: 40.0, flops: 15.0 },
-    Kernel { name: "2-D with exposure", bytes: 56.0, flops: 16.0 },
-    Kernel { name: "3-D with exposure", bytes: 64.0, flops: 22.0 },
+    Kernel { name: "2-D", bytes: 40.0, flops: 9.0 },
+    Kernel { name: "2-D with exposure", bytes: 56.0, flops: 10.0 },
+    Kernel { name: "3-D with exposure", bytes: 64.0, flops: 14.0 },
 ];
 
 /// Enough for every pipeline to be busy: two of each kind, six steps long; and few enough to stay in

@@ -3,7 +3,9 @@
 
 use heatpath_core::Exec;
 use heatpath_core::exec::SimdLevel;
-use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatError, HeatOptions, Step};
+use heatpath_core::grid::heat::{
+    Duration, Explicit, Heat, HeatError, HeatOptions, NoExposure, Step,
+};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources};
 use proptest::prelude::*;
@@ -125,6 +127,29 @@ fn space() {
     let shape = Shape::with_spacing([40, 29, 51], [1.0, 1.0, 2.0]).unwrap();
     let medium = medium::given(rough(shape, 0.2), Form::Divergence).unwrap();
     assert_agrees(&medium, [30, 3, 25], 30, &Exec::new(2).unwrap());
+}
+
+#[test]
+fn long_space() {
+    let shape = Shape::new([150, 21, 37]).unwrap();
+    let medium = medium::given(rough(shape, 0.2), Form::Pointwise).unwrap();
+    assert_agrees(&medium, [120, 3, 25], 30, &Exec::new(2).unwrap());
+}
+
+#[test]
+fn the_temperature_does_not_depend_on_the_exposure() {
+    let medium =
+        medium::given(rough(Shape::new([150, 90]).unwrap(), 0.1), Form::Pointwise).unwrap();
+    let sources = Sources::new(&[[100.0, 20.0]], medium.mask()).unwrap();
+    let flow = |exposure| {
+        let options = HeatOptions { exposure, ..HeatOptions::default() };
+        let explicit = Explicit::new(&medium, options).unwrap();
+        explicit.flow(&sources, &Exec::single_threaded()).unwrap()
+    };
+    let (with, without) = (flow(true), flow(false));
+    assert_eq!(with.ln_temperature(), without.ln_temperature());
+    assert!(with.ln_exposure().is_ok());
+    assert_eq!(without.ln_exposure(), Err(NoExposure));
 }
 
 #[test]

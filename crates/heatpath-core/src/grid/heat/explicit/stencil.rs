@@ -4,8 +4,8 @@ use super::super::operator::Operator;
 use crate::grid::Shape;
 use crate::simd::Aligned;
 
-/// Rows of the kernel are a whole number of vectors of any level: 16 single or 8 double numbers.
-pub(super) const ROW_MULTIPLE: usize = 16;
+/// Rows of the kernel are a whole number of vectors, the longest of which hold 8 numbers.
+pub(super) const ROW_MULTIPLE: usize = 8;
 
 /// The conductances of all faces: row by row, each belonging to the cell before it.
 ///
