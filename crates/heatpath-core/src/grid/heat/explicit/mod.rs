@@ -11,8 +11,8 @@ mod stencil;
 use super::operator::{FaceMean, Operator};
 use super::{Heat, Scheme, shares};
 use crate::exec::{Cancelled, Exec};
-use crate::grid::Sources;
 use crate::grid::medium::Medium;
+use crate::grid::{Grid, Sources};
 use schedule::{Fields, Steps, Tiles, Tiling};
 use stencil::Stencil;
 use thiserror::Error;
@@ -274,7 +274,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             let mut heat = Tiles::new(self.medium.shape(), tiling);
             shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
             match heat.march(steps, report, exec)? {
-                Some(fields) if !self.has_lost_heat(fields.0.values(), shares) => {
+                Some(fields) if !self.has_lost_heat(&fields, shares) => {
                     return Ok(fields);
                 }
                 _ => {}
@@ -284,13 +284,17 @@ impl<'a, const D: usize> Explicit<'a, D> {
     }
 
     /// Whether a cell within reach has no heat: its tile had to hold too wide a range of values.
-    fn has_lost_heat(&self, ln_temperature: &[f64], shares: &[(usize, f64)]) -> bool {
+    fn has_lost_heat(&self, fields: &Fields<D>, shares: &[(usize, f64)]) -> bool {
         let mask = self.medium.mask();
-        let cold = |cell: usize| ln_temperature[cell] == f64::NEG_INFINITY;
-        if !(0..ln_temperature.len()).any(|cell| cold(cell) && mask.is_open(cell)) {
+        let (temperature, exposure) = (fields.0.values(), fields.1.as_ref().map(Grid::values));
+        let cold = |cell: usize| {
+            temperature[cell] == f64::NEG_INFINITY
+                || exposure.is_some_and(|exposure| exposure[cell] == f64::NEG_INFINITY)
+        };
+        if !(0..temperature.len()).any(|cell| cold(cell) && mask.is_open(cell)) {
             return false;
         }
-        let mut met = vec![false; ln_temperature.len()];
+        let mut met = vec![false; temperature.len()];
         let mut front: Vec<usize> = shares.iter().map(|&(cell, _)| cell).collect();
         // Heat moves one cell a step.
         for _ in 0..=self.iterations {

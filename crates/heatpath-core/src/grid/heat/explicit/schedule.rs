@@ -253,12 +253,13 @@ impl<const D: usize> WithLanes for Visit<'_, D> {
         let around = tiles.around(inside, count);
         let Some(exponent) = tiles.exponent(tile.number, around) else {
             tile.next.heat.values.clear();
+            tile.next.largest = 0.0;
             return;
         };
         let extent = tiles.extent(inside, around);
-        tiles.load(around, extent.low, exponent, steps, window);
+        tile.has_lost = tiles.load(around, extent.low, exponent, steps, window);
         window.advance(lanes, steps.stencil, &extent, count);
-        tile.has_lost = tiles.store(inside, extent.low, window, &mut tile.next);
+        tile.has_lost |= tiles.store(inside, extent.low, window, &mut tile.next);
         tile.next.heat.exponent = exponent;
         if steps.exposure {
             tiles.add_exposure(inside, extent.low, window, exponent, &mut tile.exposure);
@@ -294,7 +295,8 @@ impl<const D: usize> Tiles<D> {
         exponent
     }
 
-    /// Copies a range into the window that begins at `low`, scaled to an exponent.
+    /// Copies a range into the window that begins at `low`, scaled to an exponent; says whether some
+    /// values were too small for it.
     #[inline(always)]
     fn load(
         &self,
@@ -303,7 +305,7 @@ impl<const D: usize> Tiles<D> {
         exponent: i32,
         steps: &Steps<D>,
         window: &mut Window<D>,
-    ) {
+    ) -> bool {
         for row in range.rows() {
             let (start, stride) = (window.row(offset(row, low)), window.row_stride());
             let (to, n) = (start + row[0] - low[0], range.row_length());
@@ -321,6 +323,7 @@ impl<const D: usize> Tiles<D> {
                 rates.for_each(|(rate, k)| *rate = steps.step * k);
             }
         }
+        let mut has_lost = false;
         for tile in self.tiles_around(range) {
             let heat = &self.now[tile].heat;
             let part = range.intersection(self.range_of(tile));
@@ -331,12 +334,14 @@ impl<const D: usize> Tiles<D> {
                 if heat.values.is_empty() {
                     cells.fill(0.0);
                 } else {
-                    let values = &heat.values[self.place(row)..];
-                    let cells = cells.iter_mut().zip(values);
-                    cells.for_each(|(u, value)| *u = scale.apply(*value));
+                    for (u, &value) in cells.iter_mut().zip(&heat.values[self.place(row)..]) {
+                        *u = trusted(scale.apply(value));
+                        has_lost |= (value > 0.0) & (*u == 0.0);
+                    }
                 }
             }
         }
+        has_lost
     }
 
     /// Adds what the window has summed up to the exposure of a tile.
