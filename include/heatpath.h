@@ -3,7 +3,8 @@
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths. Nothing is printed, and no state of
+ * wrong. All memory stays the caller's, except for hp_paths and
+ * hp_solver. Nothing is printed, and no state of
  * the process is changed; threads are started anew for a call and end before it returns.
  * All functions may be called from any thread.
  *
@@ -53,7 +54,10 @@
 /** The progress callback asked to stop. */
 #define HP_CANCELLED 6
 
-/** There is not enough memory for a problem of this size. */
+/**
+ * There is not enough memory for a problem of this size, or HP_SOLVER_IMPLICIT needs more than
+ * hp_options.memory allows; the message says how much.
+ */
 #define HP_OUT_OF_MEMORY 7
 
 /** The operating system refused to start the threads. */
@@ -138,13 +142,26 @@
 #define HP_FORM_POINTWISE 2
 
 /**
- * sqrt(-4 t log(u / u0)), where u0 is the temperature at the sources. The default, for lengths.
- * With several sources heat flows twice, to make them equally warm.
+ * sqrt(-4 t log(u / u0)), where u0 is the temperature at the sources, and the like for implicit
+ * heat. The default, for lengths. With several sources explicit heat flows twice, to make them
+ * equally warm.
  */
 #define HP_NORMALIZED 1
 
-/** sqrt(-4 t log u), Varadhan's formula as it stands: too long near the sources. */
+/**
+ * sqrt(-4 t log u), Varadhan's formula as it stands, and -sqrt(t) log u of implicit heat: too long
+ * near the sources.
+ */
 #define HP_VARADHAN 2
+
+/** Many small time steps, for images of any size. The default. */
+#define HP_SOLVER_EXPLICIT 0
+
+/**
+ * One time step of any length, or a few, by a sparse factorisation: prepared once, it serves many
+ * sources. It takes some 550 bytes for each pixel of a picture, and many more for a volume.
+ */
+#define HP_SOLVER_IMPLICIT 1
 
 /** The path ends at a source. */
 #define HP_ENDED_SOURCE 1
@@ -165,6 +182,14 @@
  * threads may use it at once, and any thread may free it once the others are done.
  */
 typedef struct hp_paths hp_paths;
+
+/**
+ * A medium prepared for distances from any sources.
+ *
+ * Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
+ * threads may use it at once, and any thread may free it once the others are done.
+ */
+typedef struct hp_solver hp_solver;
 
 /**
  * What a function returns: HP_OK or the reason why it failed. The numbers never change their
@@ -274,18 +299,19 @@ typedef struct hp_options {
   double range_high;
   /**
    * The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-   * longest side of a picture and three times that of a volume, unless a time is given.
+   * longest side of a picture and three times that of a volume, unless a time is given. Of
+   * HP_SOLVER_IMPLICIT it is 1 by default, at most 1000, and may be given besides a time.
    */
   uint64_t iterations;
   /**
    * The time for which heat flows, in units of the smallest spacing squared; steps are shortened
-   * to fit. 0, the default, leaves it to the iterations.
+   * to fit. 0, the default, leaves it to the iterations; of HP_SOLVER_IMPLICIT it stands for 16.
    */
   double time;
   /**
    * The time step, in units of the smallest spacing squared. Not a number (NAN), the default,
    * stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
-   * that the medium allows.
+   * that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
    */
   double step;
   /** HP_NORMALIZED, the default, or HP_VARADHAN. */
@@ -299,6 +325,20 @@ typedef struct hp_options {
   hp_progress progress;
   /** What the progress callback gets as its second argument. */
   void *user;
+  /** HP_SOLVER_EXPLICIT, the default, or HP_SOLVER_IMPLICIT. */
+  uint32_t solver;
+  /** 0. */
+  uint32_t reserved;
+  /**
+   * For conductivity and combined: the grey value f0, from 0 to 1, that the image is compared
+   * with. Not a number (NAN), the default, stands for that of the sources.
+   */
+  double reference;
+  /**
+   * For HP_SOLVER_IMPLICIT: the most bytes that the factorisation may take. 0, the default,
+   * stands for 4 GiB.
+   */
+  uint64_t memory;
 } hp_options;
 
 /** What is known about a path besides its points. Set struct_size, then call hp_paths_info(). */
@@ -459,6 +499,66 @@ hp_status hp_paths_points(const struct hp_paths *paths,
                           uint64_t index,
                           double *coordinates,
                           uint64_t capacity);
+
+/**
+ * Prepares distances from sources that are not known yet; with HP_SOLVER_IMPLICIT, analyses and
+ * factors the system.
+ *
+ * image and mask are those of hp_distance(). They are not needed any more when this returns.
+ *
+ * options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
+ * HP_MEDIUM_COMBINED need a reference, so NULL will not do. The estimator does not count.
+ *
+ * solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
+ * returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
+ * message names the memory that it needs.
+ *
+ * The caller promises:
+ * The structs are as large as their struct_size says, and buffers are as large as their
+ * description.
+ */
+hp_status hp_solver_create(const struct hp_buffer *image,
+                           const struct hp_buffer *mask,
+                           const struct hp_options *options,
+                           struct hp_solver **solver);
+
+/**
+ * Computes the distance of every pixel from each of several sources: one map for each of them.
+ *
+ * sources: source_count points, as for hp_distance().
+ *
+ * options: only estimator, threads, progress and user count here; the rest was fixed when the
+ * solver was made. NULL for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the
+ * threads; the results do not depend on how many there are.
+ *
+ * distances: describes the first map, as for hp_distance().
+ *
+ * map_stride: the bytes from the first pixel of a map to that of the next one; negative if that
+ * lies before it. 0 means that maps follow each other without gaps. Maps must not lie in one
+ * another.
+ *
+ * If the call is cancelled some of the maps may have been written; after any other failure none
+ * was.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_solver_create() and was not freed yet. The structs are as
+ * large as their struct_size says, and the maps and points are as large as their description.
+ * The results are not used by another thread meanwhile.
+ */
+hp_status hp_solver_distances(const struct hp_solver *solver,
+                              const double *sources,
+                              uint64_t source_count,
+                              const struct hp_options *options,
+                              const struct hp_buffer *distances,
+                              int64_t map_stride);
+
+/**
+ * Frees a solver; NULL is fine.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_solver_create() and was not freed yet.
+ */
+void hp_solver_free(struct hp_solver *solver);
 
 #ifdef __cplusplus
 }  // extern "C"

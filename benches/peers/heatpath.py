@@ -1,7 +1,8 @@
 """The C library of heatpath through ctypes; the structs are those of include/heatpath.h."""
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from ctypes import byref, c_double, c_int32, c_int64, c_uint32, c_uint64, c_void_p
 from pathlib import Path
 from typing import TypeVar
@@ -14,6 +15,7 @@ UNSUPPORTED = 9
 F64 = 8
 MEDIUM_UNIFORM = 1
 MEDIUM_CONDUCTIVITY = 2
+SOLVER_IMPLICIT = 1
 
 Struct = TypeVar("Struct", bound=ctypes.Structure)
 
@@ -54,6 +56,10 @@ class Options(ctypes.Structure):
         ("threads", c_uint32),
         ("progress", c_void_p),
         ("user", c_void_p),
+        ("solver", c_uint32),
+        ("reserved", c_uint32),
+        ("reference", c_double),
+        ("memory", c_uint64),
     )
 
 
@@ -68,6 +74,13 @@ class Library:
         self._function("distance").argtypes = (
             *(c_void_p, c_void_p, c_void_p),
             *(c_uint64, c_void_p, c_void_p),
+        )
+        self._function("solver_create").argtypes = (c_void_p,) * 4
+        self._function("solver_free").argtypes = (c_void_p,)
+        self._function("solver_free").restype = None
+        self._function("solver_distances").argtypes = (
+            *(c_void_p, c_void_p, c_uint64),
+            *(c_void_p, c_void_p, c_int64),
         )
         if self._function("abi_version")() != ABI_VERSION:
             raise RuntimeError("libheatpath has another binary interface than this program")
@@ -93,6 +106,38 @@ class Library:
             )
         )
         return result
+
+    @contextmanager
+    def prepared(self, picture: np.ndarray, reference: float, threads: int) -> Iterator[c_void_p]:
+        """Prepare implicit heat in the conductivity of `picture`, until the block ends."""
+        options = self._options(MEDIUM_CONDUCTIVITY, threads)
+        options.solver, options.reference = SOLVER_IMPLICIT, reference
+        solver = c_void_p()
+        create = self._function("solver_create")
+        self._check(create(byref(self._buffer(picture)), None, byref(options), byref(solver)))
+        try:
+            yield solver
+        finally:
+            self._function("solver_free")(solver)
+
+    def distances(
+        self, solver: c_void_p, sources: np.ndarray, maps: np.ndarray, threads: int
+    ) -> None:
+        """Fill a map for each of `sources`, in numpy's order of axes."""
+        if len(maps) != len(sources) or not maps.flags.c_contiguous:
+            raise ValueError("there must be a map for each source, one after the other")
+        points = np.ascontiguousarray(sources[:, ::-1], dtype=float)
+        options = self._options(MEDIUM_CONDUCTIVITY, threads)
+        self._check(
+            self._function("solver_distances")(
+                solver,
+                points.ctypes.data,
+                len(points),
+                byref(options),
+                byref(self._buffer(maps[0])),
+                0,
+            )
+        )
 
     def _options(self, medium: int, threads: int) -> Options:
         options = self._initialised(Options, "options_init")

@@ -218,15 +218,19 @@ pub(crate) struct MediumArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct HeatArgs {
-    /// How many time steps; heat moves one pixel a step [default: twice the longest side in
-    /// pictures, three times in volumes].
-    #[arg(long, value_name = "N", conflicts_with = "time", help_heading = "Heat")]
+    /// How heat flows: in many small steps, or in one long step.
+    #[arg(long, default_value = "explicit", help_heading = "Heat")]
+    pub(crate) solver: SolverArg,
+    /// How many time steps [default: explicit heat, which moves one pixel a step, takes twice the
+    /// longest side in pictures and three times in volumes; implicit heat takes 1].
+    #[arg(long, value_name = "N", help_heading = "Heat")]
     pub(crate) iterations: Option<usize>,
-    /// How long heat flows, in pixels squared.
+    /// How long heat flows, in pixels squared [default: --iterations times --step; implicit heat:
+    /// 16].
     #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Heat")]
     pub(crate) time: Option<f64>,
-    /// The time step in pixels squared, or `auto` for a safe part of the largest stable one
-    /// [default: 0.2 in pictures, 2/15 in volumes].
+    /// The time step in pixels squared, or `auto` for a safe part of the largest stable one; not
+    /// for implicit heat [default: 0.2 in pictures, 2/15 in volumes].
     #[arg(
         long,
         value_name = "TAU",
@@ -235,6 +239,9 @@ pub(crate) struct HeatArgs {
         help_heading = "Heat"
     )]
     pub(crate) step: Option<StepArg>,
+    /// The most memory that implicit heat may take, in GiB [default: 4].
+    #[arg(long, value_name = "GIB", allow_negative_numbers = true, help_heading = "Heat")]
+    pub(crate) memory: Option<f64>,
     /// The mean that makes the coefficient of a face from those of its two pixels.
     #[arg(long, default_value = "harmonic", help_heading = "Heat")]
     pub(crate) face_mean: FaceMeanArg,
@@ -310,6 +317,15 @@ pub(crate) enum FormArg {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum SolverArg {
+    /// In many small steps; any size of picture or volume.
+    Explicit,
+    /// In one step, or a few, by solving a system: right far from the source too, but memory limits
+    /// the size.
+    Implicit,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum FaceMeanArg {
     Arithmetic,
     Harmonic,
@@ -317,9 +333,10 @@ pub(crate) enum FaceMeanArg {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum EstimatorArg {
-    /// sqrt(-4 t log u) as eq. (3) prints it: for comparisons, too long by a known amount.
+    /// sqrt(-4 t log u) as eq. (3) prints it, and -sqrt(t) log u of implicit heat: for
+    /// comparisons, too long by a known amount.
     Varadhan,
-    /// sqrt(-4 t log(u / u(source))): for lengths.
+    /// sqrt(-4 t log(u / u(source))), and the like of implicit heat: for lengths.
     Normalized,
 }
 

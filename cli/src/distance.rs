@@ -2,7 +2,7 @@
 
 use crate::args::DistanceArgs;
 use crate::failure::Failure;
-use crate::heat::{Outcome, flow};
+use crate::heat::{Outcome, Plan, flow};
 use crate::input::{Input, Picture, size_text};
 use crate::output;
 use heatpath_io::{FieldFormat, FieldStyle, ImageFile, Overlay, write_field, write_overlay};
@@ -24,6 +24,7 @@ struct Report {
     seconds: Seconds,
     threads: usize,
     simd: &'static str,
+    solver: &'static str,
 }
 
 #[derive(Serialize)]
@@ -38,14 +39,16 @@ pub(crate) fn distance(args: &DistanceArgs) -> Result<(), Failure> {
     let start = Instant::now();
     output::check(args.output.as_deref(), &FieldFormat::ENDINGS, &args.out)?;
     let given = &args.sources.points;
+    let plan = Plan::new(&args.heat)?;
     match Input::read(&args.picture, &[&given.source])? {
-        Input::Picture(file) => distance_in::<2>(args, file, start),
-        Input::Volume(file) => distance_in::<3>(args, file, start),
+        Input::Picture(file) => distance_in::<2>(args, &plan, file, start),
+        Input::Volume(file) => distance_in::<3>(args, &plan, file, start),
     }
 }
 
 fn distance_in<const D: usize>(
     args: &DistanceArgs,
+    plan: &Plan,
     file: ImageFile,
     start: Instant,
 ) -> Result<(), Failure> {
@@ -56,7 +59,7 @@ fn distance_in<const D: usize>(
     let medium_start = Instant::now();
     let medium = picture.medium(&args.medium, &sources)?;
     let medium_seconds = medium_start.elapsed().as_secs_f64();
-    let outcome = flow(&medium, &sources, &args.heat, false, args.out.quiet)?;
+    let outcome = flow(&medium, &sources, plan, false, args.out.quiet)?;
     // === Write
     let field = outcome.distances.field();
     if let Some(output) = &args.output {
@@ -69,7 +72,7 @@ fn distance_in<const D: usize>(
     }
     // === Report
     let open = (0..field.values().len()).filter(|&cell| medium.mask().is_open(cell)).count();
-    let mut report = report(&outcome, open);
+    let mut report = report(&outcome, plan, open);
     report.seconds.medium = medium_seconds;
     report.seconds.total = start.elapsed().as_secs_f64();
     if args.out.json {
@@ -88,7 +91,7 @@ fn distance_in<const D: usize>(
     Ok(())
 }
 
-fn report<const D: usize>(outcome: &Outcome<D>, open_cells: usize) -> Report {
+fn report<const D: usize>(outcome: &Outcome<D>, plan: &Plan, open_cells: usize) -> Report {
     let reached = outcome.distances.reached().count();
     Report {
         size: outcome.heat.shape().size().to_vec(),
@@ -108,5 +111,6 @@ fn report<const D: usize>(outcome: &Outcome<D>, open_cells: usize) -> Report {
         },
         threads: outcome.threads,
         simd: outcome.simd,
+        solver: plan.solver(),
     }
 }

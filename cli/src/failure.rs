@@ -1,7 +1,7 @@
 //! What went wrong, and the exit code for it.
 
 use heatpath_core::exec::ThreadsError;
-use heatpath_core::grid::heat::{HeatError, NoExposure};
+use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::{PointError, ShapeError};
 use heatpath_io::{ReadError, WriteError};
@@ -111,6 +111,19 @@ impl From<HeatError> for Failure {
             HeatError::StepTooLarge { .. } => {
                 Self::bad_input(format!("{error}; `--step auto` chooses one"))
             }
+            _ => Self::usage(error),
+        }
+    }
+}
+
+impl From<ImplicitError> for Failure {
+    fn from(error: ImplicitError) -> Self {
+        match error {
+            ImplicitError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            ImplicitError::TooLarge(_) => {
+                Self::bad_input(format!("{error}: `--solver explicit`; --memory allows more"))
+            }
+            ImplicitError::Linear(_) => Self::no_answer(error),
             _ => Self::usage(error),
         }
     }

@@ -1,17 +1,127 @@
 //! Heat, with a progress bar and an answer to Ctrl-C.
 
-use crate::args::{EstimatorArg, FaceMeanArg, HeatArgs, StepArg};
+use crate::args::{EstimatorArg, FaceMeanArg, HeatArgs, SolverArg, StepArg};
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
 use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
-use heatpath_core::grid::heat::{Duration, Explicit, FaceMean, Heat, HeatOptions, Step};
+use heatpath_core::grid::heat::{
+    Duration, Explicit, FaceMean, Heat, HeatOptions, Implicit, ImplicitOptions, Step,
+};
 use heatpath_core::grid::medium::Medium;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+
+/// What the options of a command ask for.
+pub(crate) struct Plan {
+    solver: Solver,
+    estimator: EstimatorArg,
+    threads: usize,
+}
+
+enum Solver {
+    Explicit(HeatOptions),
+    Implicit(ImplicitOptions),
+}
+
+impl Plan {
+    /// Refuses options that do not go together.
+    pub(crate) fn new(args: &HeatArgs) -> Result<Self, Failure> {
+        let solver = match args.solver {
+            SolverArg::Explicit => Solver::Explicit(explicit(args)?),
+            SolverArg::Implicit => Solver::Implicit(implicit(args)?),
+        };
+        Ok(Self { solver, estimator: args.estimator, threads: args.threads })
+    }
+
+    /// The name of the solver.
+    pub(crate) fn solver(&self) -> &'static str {
+        match self.solver {
+            Solver::Explicit(_) => "explicit",
+            Solver::Implicit(_) => "implicit",
+        }
+    }
+
+    fn heat<const D: usize>(
+        &self,
+        medium: &Medium<D>,
+        sources: &Sources<D>,
+        exposure: bool,
+        exec: &Exec,
+    ) -> Result<Heat<D>, Failure> {
+        let balanced = self.estimator == EstimatorArg::Normalized;
+        match self.solver {
+            Solver::Explicit(options) => {
+                let explicit = Explicit::new(medium, HeatOptions { exposure, ..options })?;
+                let flow = if balanced { Explicit::flow_balanced } else { Explicit::flow };
+                Ok(flow(&explicit, sources, exec)?)
+            }
+            Solver::Implicit(options) => {
+                let implicit = Implicit::new(medium, options, exec)?;
+                let flow = if balanced { Implicit::flow_balanced } else { Implicit::flow };
+                Ok(flow(&implicit, sources, exec)?)
+            }
+        }
+    }
+}
+
+fn explicit(args: &HeatArgs) -> Result<HeatOptions, Failure> {
+    if args.memory.is_some() {
+        return Err(Failure::usage("--memory limits implicit heat: it needs `--solver implicit`"));
+    }
+    let duration = match (args.iterations, args.time) {
+        (Some(_), Some(_)) => {
+            let message =
+                "--iterations and --time cannot both be given, but with `--solver implicit`";
+            return Err(Failure::usage(message));
+        }
+        (Some(iterations), None) => Duration::Iterations(iterations),
+        (None, Some(time)) => Duration::Time(time),
+        (None, None) => Duration::Usual,
+    };
+    let step = match args.step {
+        None => Step::Usual,
+        Some(StepArg::Auto) => Step::Auto,
+        Some(StepArg::Fixed(step)) => Step::Fixed(step),
+    };
+    Ok(HeatOptions { duration, step, face_mean: face_mean(args), ..HeatOptions::default() })
+}
+
+fn implicit(args: &HeatArgs) -> Result<ImplicitOptions, Failure> {
+    if args.step.is_some() {
+        return Err(Failure::usage(
+            "--step is for explicit heat only: a step of implicit heat is as long as --time over \
+             --iterations",
+        ));
+    }
+    let usual = ImplicitOptions::default();
+    let memory_limit = match args.memory {
+        None => usual.memory_limit,
+        // More than there is becomes the largest number there is.
+        Some(gibibytes) if gibibytes > 0.0 => (gibibytes * f64::from(1 << 30)) as usize,
+        Some(gibibytes) => {
+            return Err(Failure::usage(format!(
+                "--memory is {gibibytes}; it must be a positive number of GiB"
+            )));
+        }
+    };
+    Ok(ImplicitOptions {
+        time: args.time.unwrap_or(usual.time),
+        steps: args.iterations.unwrap_or(usual.steps),
+        face_mean: face_mean(args),
+        memory_limit,
+    })
+}
+
+fn face_mean(args: &HeatArgs) -> FaceMean {
+    match args.face_mean {
+        FaceMeanArg::Arithmetic => FaceMean::Arithmetic,
+        FaceMeanArg::Harmonic => FaceMean::Harmonic,
+    }
+}
 
 /// Heat that has flowed, the distances read from it, and how long both took.
 pub(crate) struct Outcome<const D: usize> {
@@ -28,15 +138,14 @@ pub(crate) struct Outcome<const D: usize> {
 pub(crate) fn flow<const D: usize>(
     medium: &Medium<D>,
     sources: &[[f64; D]],
-    args: &HeatArgs,
+    plan: &Plan,
     exposure: bool,
     quiet: bool,
 ) -> Result<Outcome<D>, Failure> {
     let sources = Sources::new(sources, medium.mask())?;
-    let explicit = Explicit::new(medium, HeatOptions { exposure, ..options(args) })?;
     let bar = progress_bar(quiet);
     let interrupted = interruption();
-    let exec = Exec::new(args.threads)?.with_watch(|finished| {
+    let exec = Exec::new(plan.threads)?.with_watch(|finished| {
         bar.set_position((finished * 1000.0) as u64);
         if interrupted.load(Ordering::Relaxed) {
             ControlFlow::Break(())
@@ -45,41 +154,18 @@ pub(crate) fn flow<const D: usize>(
         }
     });
     let start = Instant::now();
-    let heat = match args.estimator {
-        EstimatorArg::Varadhan => explicit.flow(&sources, &exec),
-        EstimatorArg::Normalized => explicit.flow_balanced(&sources, &exec),
-    };
+    let heat = plan.heat(medium, &sources, exposure, &exec);
     bar.finish_and_clear();
     let heat = heat?;
     let heat_seconds = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let distances = match args.estimator {
+    let distances = match plan.estimator {
         EstimatorArg::Varadhan => varadhan(&heat),
         EstimatorArg::Normalized => normalized(&heat),
     };
     let distance_seconds = start.elapsed().as_secs_f64();
     let (threads, simd) = (exec.threads(), exec.simd().name());
     Ok(Outcome { heat, distances, heat_seconds, distance_seconds, threads, simd })
-}
-
-fn options(args: &HeatArgs) -> HeatOptions {
-    HeatOptions {
-        duration: match (args.iterations, args.time) {
-            (Some(iterations), _) => Duration::Iterations(iterations),
-            (None, Some(time)) => Duration::Time(time),
-            (None, None) => Duration::Usual,
-        },
-        step: match args.step {
-            None => Step::Usual,
-            Some(StepArg::Auto) => Step::Auto,
-            Some(StepArg::Fixed(step)) => Step::Fixed(step),
-        },
-        face_mean: match args.face_mean {
-            FaceMeanArg::Arithmetic => FaceMean::Arithmetic,
-            FaceMeanArg::Harmonic => FaceMean::Harmonic,
-        },
-        ..HeatOptions::default()
-    }
 }
 
 /// A bar on standard error; indicatif shows it on terminals only.

@@ -2,7 +2,7 @@
 
 use crate::args::PathArgs;
 use crate::failure::Failure;
-use crate::heat::flow;
+use crate::heat::{Plan, flow};
 use crate::input::{Input, Picture};
 use crate::output;
 use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
@@ -12,20 +12,21 @@ use heatpath_io::{Curves, ImageFile, Overlay, curves_json, write_curves, write_o
 pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
     let given = &args.sources.points;
+    let plan = Plan::new(&args.heat)?;
     match Input::read(&args.picture, &[&given.source, &args.end])? {
-        Input::Picture(file) => path_in::<2>(args, file),
-        Input::Volume(file) => path_in::<3>(args, file),
+        Input::Picture(file) => path_in::<2>(args, &plan, file),
+        Input::Volume(file) => path_in::<3>(args, &plan, file),
     }
 }
 
-fn path_in<const D: usize>(args: &PathArgs, file: ImageFile) -> Result<(), Failure> {
+fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Result<(), Failure> {
     output::check_dimension(args.output.as_deref(), &args.out, D)?;
     let picture = Picture::<D>::new(&args.picture, file)?;
     let given = &args.sources.points;
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let ends = picture.points("end", &args.end, args.ends.as_deref())?;
     let medium = picture.medium(&args.medium, &sources)?;
-    let outcome = flow(&medium, &sources, &args.heat, true, args.out.quiet)?;
+    let outcome = flow(&medium, &sources, plan, true, args.out.quiet)?;
     let descent = Descent::new(&outcome.heat)?;
     let paths = ends
         .iter()

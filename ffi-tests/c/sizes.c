@@ -16,6 +16,9 @@ int main(void)
     AT(hp_options, smoothing);
     AT(hp_options, estimator);
     AT(hp_options, user);
+    AT(hp_options, solver);
+    AT(hp_options, reference);
+    AT(hp_options, memory);
     SIZE(hp_path_info);
     AT(hp_path_info, source);
     AT(hp_path_info, distance);

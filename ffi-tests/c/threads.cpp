@@ -46,8 +46,23 @@ std::vector<double> distances(const hp_buffer &image, uint32_t threads)
     return result;
 }
 
-void work(unsigned number, const hp_buffer &image, const hp_paths *paths,
-          const std::vector<double> &expected)
+// The maps of two sources, by a solver that threads share.
+std::vector<double> maps(const hp_solver *solver)
+{
+    std::vector<double> result(2 * width * height, -1.0);
+    const hp_buffer first = describe(result, HP_F64);
+    const std::array<double, 4> sources{5.0, 6.0, 33.25, 20.5};
+    check(hp_solver_distances(solver, sources.data(), 2, nullptr, &first, 0) == HP_OK, "maps");
+    return result;
+}
+
+struct Shared {
+    const hp_paths *paths;
+    const hp_solver *solver;
+    std::vector<double> distances, maps;
+};
+
+void work(unsigned number, const hp_buffer &image, const Shared &shared)
 {
     const double outside[2] = {-100.0 - number, 0.0};
     const std::string words = "[-10" + std::to_string(number) + ".0, 0.0]";
@@ -56,10 +71,11 @@ void work(unsigned number, const hp_buffer &image, const hp_paths *paths,
         hp_buffer target = describe(unused, HP_F64);
         const hp_status status = hp_distance(&image, nullptr, outside, 1, nullptr, &target);
         check(status == HP_INVALID_POINT, "a source outside the image");
-        check(distances(image, 1 + number % 3) == expected, "distances of another thread");
+        check(distances(image, 1 + number % 3) == shared.distances, "distances of another thread");
+        check(maps(shared.solver) == shared.maps, "maps of a shared solver");
         hp_path_info info{};
         info.struct_size = sizeof info;
-        check(hp_paths_info(paths, 0, &info) == HP_OK, "shared paths");
+        check(hp_paths_info(shared.paths, 0, &info) == HP_OK, "shared paths");
         check(info.ending == HP_ENDED_SOURCE, "the path reaches the source");
         const std::string message = hp_last_error_message();
         check(message.find(words) != std::string::npos, message.c_str());
@@ -79,12 +95,20 @@ int main()
     const double source[2] = {5, 6}, end[2] = {35, 25};
     hp_paths *paths = nullptr;
     check(hp_paths_create(&image, nullptr, source, 1, end, 1, nullptr, &paths) == HP_OK, "paths");
+    hp_options options;
+    check(hp_options_init(&options, sizeof options) == HP_OK, "options");
+    options.solver = HP_SOLVER_IMPLICIT;
+    options.reference = 0.5;
+    hp_solver *solver = nullptr;
+    check(hp_solver_create(&image, nullptr, &options, &solver) == HP_OK, "solver");
+    const Shared shared{paths, solver, expected, maps(solver)};
     std::vector<std::thread> threads;
     for (unsigned number = 0; number < 4; ++number)
-        threads.emplace_back(work, number, std::cref(image), paths, std::cref(expected));
+        threads.emplace_back(work, number, std::cref(image), std::cref(shared));
     for (std::thread &thread : threads)
         thread.join();
     check(std::string(hp_last_error_message()).empty(), "the message of another thread");
     hp_paths_free(paths);
+    hp_solver_free(solver);
     return failures != 0;
 }

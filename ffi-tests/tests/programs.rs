@@ -98,6 +98,11 @@ fn wrong_volumes_fail_in_words() {
 }
 
 #[test]
+fn a_prepared_solver_gives_the_same_maps() {
+    checks_itself("solver.c");
+}
+
+#[test]
 fn layouts_of_memory_change_no_bit() {
     checks_itself("layouts.c");
 }

@@ -4,7 +4,7 @@ use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::pixels;
 use crate::problem::{Arguments, Problem};
-use crate::status::{Failure, HP_INVALID_BUFFER, guard, hp_status};
+use crate::status::{Failure, guard, hp_status};
 use crate::view::{self, View};
 
 /// Computes the distance of every pixel from the nearest source, by letting heat flow.
@@ -58,16 +58,10 @@ unsafe fn write_distance<const D: usize>(
     pixels::check_writable(&target)?;
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
-    let (size, expected) = (target.shape.size(), problem.mask().shape().size());
-    if size != expected {
-        return Err(Failure::new(
-            HP_INVALID_BUFFER,
-            format!("distance: it has {size:?} pixels, but the image has {expected:?}"),
-        ));
-    }
-    let heat = problem.flow(1.0, false)?;
-    let distances = problem.distances(&heat);
-    problem.progress().check(1.0)?;
+    target.check_size(problem.mask().shape())?;
+    let flowed = problem.flow(1.0, false)?;
+    let distances = flowed.distances();
+    flowed.progress().check(1.0)?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
     unsafe { pixels::write(&target, distances.field().values()) };
     Ok(())

@@ -9,7 +9,7 @@
 //! | `status` | what functions return, and the message that goes with it |
 //! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
 //! | `options` | medium, heat, estimator, threads and progress; `settings` checks them |
-//! | `distance`, `paths` | the computations; `problem` is what they share |
+//! | `distance`, `paths`, `solver` | the computations; `problem` and `prepared` are what they share |
 //! | `structs` | structs that begin with their size and grow at the end |
 //!
 //! Whatever a caller passes, a function answers with a status and never unwinds, prints, touches
@@ -25,9 +25,11 @@ mod distance;
 mod options;
 mod paths;
 mod pixels;
+mod prepared;
 mod problem;
 mod progress;
 mod settings;
+mod solver;
 mod status;
 mod structs;
 mod version;
@@ -37,5 +39,6 @@ pub use buffer::*;
 pub use distance::*;
 pub use options::*;
 pub use paths::*;
+pub use solver::*;
 pub use status::*;
 pub use version::*;

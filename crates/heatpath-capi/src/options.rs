@@ -34,11 +34,19 @@ pub const HP_FORM_DIVERGENCE: u32 = 1;
 /// u_t = D laplace(u).
 pub const HP_FORM_POINTWISE: u32 = 2;
 
-/// sqrt(-4 t log(u / u0)), where u0 is the temperature at the sources. The default, for lengths.
-/// With several sources heat flows twice, to make them equally warm.
+/// sqrt(-4 t log(u / u0)), where u0 is the temperature at the sources, and the like for implicit
+/// heat. The default, for lengths. With several sources explicit heat flows twice, to make them
+/// equally warm.
 pub const HP_NORMALIZED: u32 = 1;
-/// sqrt(-4 t log u), Varadhan's formula as it stands: too long near the sources.
+/// sqrt(-4 t log u), Varadhan's formula as it stands, and -sqrt(t) log u of implicit heat: too long
+/// near the sources.
 pub const HP_VARADHAN: u32 = 2;
+
+/// Many small time steps, for images of any size. The default.
+pub const HP_SOLVER_EXPLICIT: u32 = 0;
+/// One time step of any length, or a few, by a sparse factorisation: prepared once, it serves many
+/// sources. It takes some 550 bytes for each pixel of a picture, and many more for a volume.
+pub const HP_SOLVER_IMPLICIT: u32 = 1;
 
 /// Is called from time to time with the finished part, from 0 to 1 and never falling, always on
 /// the thread that called the library. Anything but 0 cancels: the call then returns
@@ -83,14 +91,15 @@ pub struct hp_options {
     /// largest value of the type if pixels are HP_U8 or HP_U16, and else for that of the image.
     pub range_high: f64,
     /// The number of time steps; heat moves one pixel a step. 0, the default, takes twice the
-    /// longest side of a picture and three times that of a volume, unless a time is given.
+    /// longest side of a picture and three times that of a volume, unless a time is given. Of
+    /// HP_SOLVER_IMPLICIT it is 1 by default, at most 1000, and may be given besides a time.
     pub iterations: u64,
     /// The time for which heat flows, in units of the smallest spacing squared; steps are shortened
-    /// to fit. 0, the default, leaves it to the iterations.
+    /// to fit. 0, the default, leaves it to the iterations; of HP_SOLVER_IMPLICIT it stands for 16.
     pub time: f64,
     /// The time step, in units of the smallest spacing squared. Not a number (NAN), the default,
     /// stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
-    /// that the medium allows.
+    /// that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
     pub step: f64,
     /// HP_NORMALIZED, the default, or HP_VARADHAN.
     pub estimator: u32,
@@ -101,6 +110,16 @@ pub struct hp_options {
     pub progress: hp_progress,
     /// What the progress callback gets as its second argument.
     pub user: *mut c_void,
+    /// HP_SOLVER_EXPLICIT, the default, or HP_SOLVER_IMPLICIT.
+    pub solver: u32,
+    /// 0.
+    pub reserved: u32,
+    /// For conductivity and combined: the grey value f0, from 0 to 1, that the image is compared
+    /// with. Not a number (NAN), the default, stands for that of the sources.
+    pub reference: f64,
+    /// For HP_SOLVER_IMPLICIT: the most bytes that the factorisation may take. 0, the default,
+    /// stands for 4 GiB.
+    pub memory: u64,
 }
 
 // SAFETY: integers, floats and pointers of which any can be NULL; pointers in pairs at the end.
@@ -127,6 +146,10 @@ unsafe impl Versioned for hp_options {
             threads: 0,
             progress: None,
             user: std::ptr::null_mut(),
+            solver: HP_SOLVER_EXPLICIT,
+            reserved: 0,
+            reference: f64::NAN,
+            memory: 0,
         }
     }
 }

@@ -126,16 +126,16 @@ unsafe fn trace<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     check_points("end", ends, problem.mask())?;
-    let heat = problem.flow(HEAT_SHARE, true)?;
-    let distances = problem.distances(&heat);
-    let descent = Descent::new(&heat)?;
+    let flowed = problem.flow(HEAT_SHARE, true)?;
+    let distances = flowed.distances();
+    let descent = Descent::new(&flowed.heat)?;
     let mut paths = Vec::with_capacity(ends.len());
     for (number, &end) in ends.iter().enumerate() {
         let traced = number as f64 / ends.len() as f64;
-        problem.progress().check(HEAT_SHARE + (1.0 - HEAT_SHARE) * traced)?;
+        flowed.progress().check(HEAT_SHARE + (1.0 - HEAT_SHARE) * traced)?;
         paths.push(Traced::new(&descent.path(end, &distances, PathOptions::default())?));
     }
-    problem.progress().check(1.0)?;
+    flowed.progress().check(1.0)?;
     Ok(paths)
 }
 

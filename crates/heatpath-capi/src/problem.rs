@@ -1,15 +1,15 @@
-//! What all computations have in common: the caller's image, walls, sources and options.
+//! What computations have in common: the caller's image, walls, sources and options.
 
 use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::pixels;
+use crate::prepared::{self, Prepared};
 use crate::progress::Progress;
-use crate::settings::{Estimator, Recipe, Settings};
+use crate::settings::{Recipe, Settings};
 use crate::status::{Failure, HP_OUT_OF_MEMORY};
 use crate::view::View;
-use heatpath_core::Exec;
-use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
-use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions};
+use heatpath_core::grid::distance::DistanceMap;
+use heatpath_core::grid::heat::Heat;
 use heatpath_core::grid::medium::{self, Medium, MediumError};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources, fraction};
 
@@ -46,7 +46,7 @@ impl<const D: usize> Problem<D> {
             check_memory(image.shape)?;
             let mask = read_mask(arguments.mask, image.shape)?;
             let sources = Sources::new(&points, &mask)?;
-            let medium = make_medium(&image, &sources, &settings)?.with_walls(mask)?;
+            let medium = make_medium(&image, Some(&sources), &settings)?.with_walls(mask)?;
             Ok(Self { medium, sources, settings })
         }
     }
@@ -55,32 +55,51 @@ impl<const D: usize> Problem<D> {
         self.medium.mask()
     }
 
+    /// Lets heat flow; `share` is its part of all the work, for the progress. Paths need the
+    /// exposure.
+    pub(crate) fn flow(self, share: f64, exposure: bool) -> Result<Flowed<D>, Failure> {
+        let Self { medium, sources, settings } = self;
+        let heat = {
+            let progress = &settings.progress;
+            let exec = settings.exec(|finished| progress.report(share * finished))?;
+            let prepared = Prepared::new(medium, settings.method, &exec)?;
+            prepared.flow(&sources, settings.estimator, exposure, &exec)?
+        };
+        Ok(Flowed { heat, settings })
+    }
+}
+
+/// Heat that has flowed.
+pub(crate) struct Flowed<const D: usize> {
+    pub(crate) heat: Heat<D>,
+    settings: Settings,
+}
+
+impl<const D: usize> Flowed<D> {
     pub(crate) fn progress(&self) -> &Progress {
         &self.settings.progress
     }
 
-    /// Lets heat flow; `share` is its part of all the work, for the progress. Paths need the
-    /// exposure.
-    pub(crate) fn flow(&self, share: f64, exposure: bool) -> Result<Heat<D>, Failure> {
-        let exec = match self.settings.threads {
-            1 => Exec::single_threaded(),
-            threads => Exec::new(threads)?,
-        };
-        let progress = self.progress();
-        let exec = exec.with_watch(|finished| progress.report(share * finished));
-        let explicit = Explicit::new(&self.medium, HeatOptions { exposure, ..self.settings.heat })?;
-        Ok(match self.settings.estimator {
-            Estimator::Normalized => explicit.flow_balanced(&self.sources, &exec)?,
-            Estimator::Varadhan => explicit.flow(&self.sources, &exec)?,
-        })
+    pub(crate) fn distances(&self) -> DistanceMap<D> {
+        prepared::distances(&self.heat, self.settings.estimator)
     }
+}
 
-    /// Reads distances from heat.
-    pub(crate) fn distances(&self, heat: &Heat<D>) -> DistanceMap<D> {
-        match self.settings.estimator {
-            Estimator::Normalized => normalized(heat),
-            Estimator::Varadhan => varadhan(heat),
-        }
+/// Reads a medium for sources that are not known yet.
+///
+/// # Safety
+/// As [`Problem::read`].
+pub(crate) unsafe fn read_medium<const D: usize>(
+    image: *const hp_buffer,
+    mask: *const hp_buffer,
+    settings: &Settings,
+) -> Result<Medium<D>, Failure> {
+    // SAFETY: the caller's promise, for each of the pointers.
+    unsafe {
+        let image = View::read(image, "image")?;
+        check_memory(image.shape)?;
+        let mask = read_mask(mask, image.shape)?;
+        Ok(make_medium(&image, None, settings)?.with_walls(mask)?)
     }
 }
 
@@ -160,7 +179,7 @@ unsafe fn read_mask<const D: usize>(
 /// The view's pixels can be read.
 unsafe fn make_medium<const D: usize>(
     image: &View<D>,
-    sources: &Sources<D>,
+    sources: Option<&Sources<D>>,
     settings: &Settings,
 ) -> Result<Medium<D>, Failure> {
     // SAFETY: the caller's promise.
@@ -174,17 +193,34 @@ unsafe fn make_medium<const D: usize>(
         }
         Recipe::Conductivity(options) => {
             let grey = grey()?;
-            medium::conductivity(&grey, &sources.values(&grey), options)
+            medium::conductivity(&grey, &references(&grey, sources, settings)?, options)
         }
         Recipe::PeronaMalik(options) => medium::perona_malik(&grey()?, options),
         Recipe::Combined(conductivity, perona_malik) => {
             let grey = grey()?;
-            medium::combined(&grey, &sources.values(&grey), conductivity, perona_malik)
+            let references = references(&grey, sources, settings)?;
+            medium::combined(&grey, &references, conductivity, perona_malik)
         }
         Recipe::Edges(options) => medium::edges(&grey()?, options),
     };
     // The image was checked, so this is about a parameter.
     medium.map_err(|error| Failure::from(error).of("options"))
+}
+
+/// The grey values that the image is compared with.
+fn references<const D: usize>(
+    grey: &Grid<f64, D>,
+    sources: Option<&Sources<D>>,
+    settings: &Settings,
+) -> Result<Vec<f64>, Failure> {
+    match (settings.reference, sources) {
+        (Some(reference), _) => Ok(vec![reference]),
+        (None, Some(sources)) => Ok(sources.values(grey)),
+        (None, None) => Err(Failure::argument(
+            "options: reference is not set; this medium compares grey values with one, and a \
+             solver for any sources must be told which",
+        )),
+    }
 }
 
 /// # Safety

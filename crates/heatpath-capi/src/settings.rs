@@ -3,17 +3,18 @@
 use crate::options::{
     HP_EDGE_STOP_EXPONENTIAL, HP_EDGE_STOP_RATIONAL, HP_FORM_DEFAULT, HP_FORM_DIVERGENCE,
     HP_FORM_POINTWISE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY, HP_MEDIUM_EDGES,
-    HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_VARADHAN,
-    hp_options,
+    HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_SOLVER_EXPLICIT,
+    HP_SOLVER_IMPLICIT, HP_VARADHAN, hp_options,
 };
 use crate::progress::Progress;
 use crate::status::Failure;
 use crate::structs::{self, Versioned};
 use heatpath_core::Exec;
-use heatpath_core::grid::heat::{Duration, HeatOptions, Step};
+use heatpath_core::grid::heat::{Duration, HeatOptions, ImplicitOptions, Step};
 use heatpath_core::grid::medium::{
     ConductivityOptions, EdgeStop, EdgesOptions, Form, PeronaMalikOptions,
 };
+use std::ops::ControlFlow;
 
 /// A medium with its parameters.
 pub(crate) enum Recipe {
@@ -23,6 +24,13 @@ pub(crate) enum Recipe {
     Combined(ConductivityOptions, PeronaMalikOptions),
     Edges(EdgesOptions),
     Given(Form),
+}
+
+/// How heat flows.
+#[derive(Clone, Copy)]
+pub(crate) enum Method {
+    Explicit(HeatOptions),
+    Implicit(ImplicitOptions),
 }
 
 /// How heat is read as distance.
@@ -37,7 +45,9 @@ pub(crate) struct Settings {
     pub(crate) recipe: Recipe,
     /// What becomes 0 and 1; `None` stands for the natural value.
     pub(crate) range: [Option<f64>; 2],
-    pub(crate) heat: HeatOptions,
+    /// The grey value to compare with, if not that of the sources.
+    pub(crate) reference: Option<f64>,
+    pub(crate) method: Method,
     pub(crate) estimator: Estimator,
     pub(crate) threads: usize,
     pub(crate) progress: Progress,
@@ -58,6 +68,18 @@ impl Settings {
         Self::new(&options).map_err(|failure| failure.of("options"))
     }
 
+    /// The threads, watched.
+    pub(crate) fn exec<'a>(
+        &self,
+        watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
+    ) -> Result<Exec<'a>, Failure> {
+        let exec = match self.threads {
+            1 => Exec::single_threaded(),
+            threads => Exec::new(threads)?,
+        };
+        Ok(exec.with_watch(watch))
+    }
+
     fn new(options: &hp_options) -> Result<Self, Failure> {
         if options.threads as usize > Exec::MOST_THREADS {
             let (threads, most) = (options.threads, Exec::MOST_THREADS);
@@ -72,7 +94,8 @@ impl Settings {
         Ok(Self {
             recipe: options.recipe()?,
             range: [options.range_low, options.range_high].map(|v| (!v.is_nan()).then_some(v)),
-            heat: options.heat()?,
+            reference: options.reference()?,
+            method: options.method()?,
             estimator,
             threads: options.threads as usize,
             progress: Progress::new(options.progress, options.user),
@@ -123,7 +146,47 @@ impl hp_options {
         }
     }
 
-    fn heat(&self) -> Result<HeatOptions, Failure> {
+    fn reference(&self) -> Result<Option<f64>, Failure> {
+        if self.reference.is_infinite() {
+            let message = format!("reference is {}; it must be finite or NAN", self.reference);
+            return Err(Failure::argument(message));
+        }
+        Ok((!self.reference.is_nan()).then_some(self.reference))
+    }
+
+    fn method(&self) -> Result<Method, Failure> {
+        if self.reserved != 0 {
+            let message = format!("reserved is {}; it must be 0", self.reserved);
+            return Err(Failure::argument(message));
+        }
+        match self.solver {
+            HP_SOLVER_EXPLICIT => Ok(Method::Explicit(self.explicit()?)),
+            HP_SOLVER_IMPLICIT => Ok(Method::Implicit(self.implicit()?)),
+            other => Err(unknown("solver", other, "HP_SOLVER_EXPLICIT or HP_SOLVER_IMPLICIT")),
+        }
+    }
+
+    fn implicit(&self) -> Result<ImplicitOptions, Failure> {
+        if !self.step.is_nan() {
+            return Err(Failure::argument(format!(
+                "step is {}; HP_SOLVER_IMPLICIT has none, it must be NAN",
+                self.step
+            )));
+        }
+        let usual = ImplicitOptions::default();
+        let number = |given: u64, usual: usize| match given {
+            0 => usual,
+            given => usize::try_from(given).unwrap_or(usize::MAX),
+        };
+        Ok(ImplicitOptions {
+            time: if self.time == 0.0 { usual.time } else { self.time },
+            steps: number(self.iterations, usual.steps),
+            memory_limit: number(self.memory, usual.memory_limit),
+            ..usual
+        })
+    }
+
+    fn explicit(&self) -> Result<HeatOptions, Failure> {
         let iterations = usize::try_from(self.iterations).unwrap_or(usize::MAX);
         let duration = match (iterations, self.time) {
             (0, 0.0) => Duration::Usual,
@@ -155,7 +218,15 @@ mod tests {
     #[test]
     fn the_defaults_are_those_of_the_engine() {
         let settings = Settings::new(&hp_options::defaults()).map_err(|f| f.message).unwrap();
-        assert_eq!(settings.heat, HeatOptions::default());
+        assert!(matches!(
+            settings.method,
+            Method::Explicit(options) if options == HeatOptions::default()
+        ));
+        let implicit = hp_options { solver: HP_SOLVER_IMPLICIT, ..hp_options::defaults() };
+        assert!(matches!(
+            implicit.method(),
+            Ok(Method::Implicit(options)) if options == ImplicitOptions::default()
+        ));
         assert!(matches!(
             settings.recipe,
             Recipe::Conductivity(options) if options == ConductivityOptions::default()

@@ -1,7 +1,7 @@
 //! What functions return, and the message that goes with it.
 
 use heatpath_core::exec::{Cancelled, ThreadsError};
-use heatpath_core::grid::heat::{HeatError, NoExposure};
+use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::{NotFinite, PointError, ShapeError};
 use std::any::Any;
@@ -27,7 +27,8 @@ pub const HP_INVALID_POINT: i32 = 4;
 pub const HP_UNSTABLE_STEP: i32 = 5;
 /// The progress callback asked to stop.
 pub const HP_CANCELLED: i32 = 6;
-/// There is not enough memory for a problem of this size.
+/// There is not enough memory for a problem of this size, or HP_SOLVER_IMPLICIT needs more than
+/// hp_options.memory allows; the message says how much.
 pub const HP_OUT_OF_MEMORY: i32 = 7;
 /// The operating system refused to start the threads.
 pub const HP_NO_THREADS: i32 = 8;
@@ -121,6 +122,20 @@ impl From<HeatError> for Failure {
     }
 }
 
+impl From<ImplicitError> for Failure {
+    fn from(error: ImplicitError) -> Self {
+        let status = match error {
+            ImplicitError::TooLarge(_) => HP_OUT_OF_MEMORY,
+            ImplicitError::Cancelled(cancelled) => return cancelled.into(),
+            ImplicitError::Time(_) | ImplicitError::TooLong { .. } | ImplicitError::Steps(_) => {
+                HP_INVALID_ARGUMENT
+            }
+            ImplicitError::Linear(_) => HP_RANGE,
+        };
+        Self::new(status, error.to_string())
+    }
+}
+
 thread_local! {
     /// The message of the last failure on this thread.
     static MESSAGE: RefCell<CString> = RefCell::default();
@@ -206,7 +221,7 @@ mod tests {
 
     #[test]
     fn numbers_are_for_ever() {
-        let names: Vec<_> = (0..12).map(|status| name_of(status).to_str().unwrap()).collect();
+        let names: Vec<_> = (0..13).map(|status| name_of(status).to_str().unwrap()).collect();
         assert_eq!(
             names,
             [
@@ -221,6 +236,7 @@ mod tests {
                 "HP_NO_THREADS",
                 "HP_UNSUPPORTED",
                 "HP_PANIC",
+                "HP_RANGE",
                 "unknown status",
             ]
         );

@@ -132,6 +132,57 @@ impl<const D: usize> View<D> {
         Ok(())
     }
 
+    /// Refuses a result of another size than the image.
+    pub(crate) fn check_size(&self, image: &Shape<D>) -> Result<(), Failure> {
+        let (size, expected) = (self.shape.size(), image.size());
+        if size == expected {
+            return Ok(());
+        }
+        let message = format!("it has {size:?} pixels, but the image has {expected:?}");
+        Err(Failure::new(HP_INVALID_BUFFER, message).of(self.name))
+    }
+
+    /// The bytes from this map to the next of `count`, worked out if `given` as 0.
+    pub(crate) fn map_stride(&self, given: i64, count: usize) -> Result<isize, Failure> {
+        let size = self.shape.size();
+        let packed = (0..D).try_fold(self.sample.bytes(), |most, axis| {
+            Some(most.max(self.stride[axis].unsigned_abs().checked_mul(size[axis])?))
+        });
+        let stride = match given {
+            0 => packed.and_then(|bytes| isize::try_from(bytes).ok()),
+            _ => isize::try_from(given).ok(),
+        };
+        let invalid = |message: String| Failure::new(HP_INVALID_BUFFER, message);
+        let far = || invalid("the maps lead to pixels outside of all memory".to_owned());
+        let (stride, extent) = (stride.ok_or_else(far)?, self.extent());
+        if count > 1 && stride.unsigned_abs() < extent {
+            return Err(invalid(format!(
+                "map_stride is {stride}, but that must be at least {extent} bytes or maps would \
+                 overlap"
+            )));
+        }
+        let others = stride.unsigned_abs().checked_mul(count.saturating_sub(1));
+        let all = others.and_then(|bytes| bytes.checked_add(extent)).ok_or_else(far)?;
+        let address = self.data.addr();
+        let reaches_below = || self.reach_below() + if stride < 0 { all - extent } else { 0 };
+        let fits = all <= isize::MAX as usize
+            && address.checked_add(all).is_some()
+            && reaches_below() <= address;
+        if fits { Ok(stride) } else { Err(far()) }
+    }
+
+    /// The bytes from the lowest to the highest pixel.
+    fn extent(&self) -> usize {
+        let steps = self.stride.iter().zip(self.shape.size());
+        let steps = steps.map(|(stride, side)| stride.unsigned_abs() * (side - 1));
+        steps.sum::<usize>() + self.sample.bytes()
+    }
+
+    /// The same view of another place in memory.
+    pub(crate) fn moved(&self, bytes: isize) -> Self {
+        Self { data: self.data.wrapping_offset(bytes), ..*self }
+    }
+
     /// Refuses pixels that overlap, and those that would lie outside of all memory.
     fn check_extent(&self) -> Result<(), Failure> {
         let (size, stride) = (self.shape.size(), self.stride.map(isize::unsigned_abs));
@@ -260,6 +311,24 @@ mod tests {
         }
         let message = View::<2>::new(&buffer(size, [0; 3]), "mask").unwrap_err().message;
         assert_eq!(message, "dimension is 3, but that of the image is 2");
+    }
+
+    #[test]
+    fn maps_follow_each_other() {
+        let view = View::<2>::new(&buffer([5, 3], [0, 16]), "maps").unwrap();
+        let stride = |given: i64, count| view.map_stride(given, count).map_err(|f| f.message);
+        assert_eq!(stride(0, 3), Ok(48), "with the gap after the last row");
+        assert_eq!(stride(42, 3), Ok(42));
+        assert_eq!(stride(-42, 3), Ok(-42));
+        assert_eq!(stride(4, 1), Ok(4), "a single map has no neighbours");
+        for near in [41, -41, 2] {
+            assert!(stride(near, 2).unwrap_err().contains("at least 42 bytes"), "{near}");
+        }
+        for (given, count) in
+            [(i64::MAX, 2), (i64::MIN, 2), (-4096, 3), (48, usize::MAX), (0, usize::MAX / 48)]
+        {
+            assert!(stride(given, count).unwrap_err().contains("outside"), "{given} {count}");
+        }
     }
 
     #[test]

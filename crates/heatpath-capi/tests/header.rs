@@ -6,7 +6,8 @@
 use cbindgen::{Builder, Config, DocumentationLength, DocumentationStyle, Language};
 use std::path::{Path, PathBuf};
 
-const MODULES: [&str; 6] = ["version", "status", "buffer", "options", "distance", "paths"];
+const MODULES: [&str; 7] =
+    ["version", "status", "buffer", "options", "distance", "paths", "solver"];
 
 const TITLE: &str = "\
 /* heatpath: geodesic distances and paths on images and volumes by letting heat flow through them.
@@ -14,7 +15,8 @@ const TITLE: &str = "\
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths. Nothing is printed, and no state of
+ * wrong. All memory stays the caller's, except for hp_paths and
+ * hp_solver. Nothing is printed, and no state of
  * the process is changed; threads are started anew for a call and end before it returns.
  * All functions may be called from any thread.
  *
@@ -47,7 +49,7 @@ fn config() -> Config {
         ..Config::default()
     };
     // An opaque type: only pointers to it are used.
-    config.export.include.push("hp_paths".to_owned());
+    config.export.include.extend(["hp_paths", "hp_solver"].map(str::to_owned));
     config
 }
 

@@ -284,3 +284,17 @@ fn walls_everywhere_but_one_cell_or_none() {
     assert_eq!(heat.ln_temperature().values().iter().filter(|ln| ln.is_finite()).count(), 1);
     assert_eq!(normalized(&heat).reached().count(), 1);
 }
+
+/// A host keeps a solver without keeping the medium.
+#[test]
+fn a_solver_may_own_its_medium() {
+    let medium = medium::uniform(Shape::new([20, 15]).unwrap());
+    let exec = Exec::single_threaded();
+    let sources = Sources::new(&[[4.0, 5.5]], medium.mask()).unwrap();
+    let borrowing = Implicit::new(&medium, ImplicitOptions::default(), &exec).unwrap();
+    let expected = borrowing.flow(&sources, &exec).unwrap();
+    let owning: Implicit<'static, 2> =
+        Implicit::new(medium, ImplicitOptions::default(), &exec).unwrap();
+    let heat = owning.flow(&sources, &exec).unwrap();
+    assert_eq!(heat.ln_temperature().values(), expected.ln_temperature().values());
+}

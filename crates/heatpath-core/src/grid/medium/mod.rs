@@ -20,6 +20,7 @@ pub use uniform::uniform;
 
 use super::filter::SigmaError;
 use super::{Grid, Mask, NotFinite, Shape};
+use std::borrow::Cow;
 use thiserror::Error;
 
 /// A medium through which heat flows.
@@ -28,6 +29,18 @@ pub struct Medium<const D: usize> {
     factor: Option<Grid<f64, D>>,
     diffusion: Option<Grid<f64, D>>,
     mask: Mask<D>,
+}
+
+impl<const D: usize> From<Medium<D>> for Cow<'_, Medium<D>> {
+    fn from(medium: Medium<D>) -> Self {
+        Self::Owned(medium)
+    }
+}
+
+impl<'a, const D: usize> From<&'a Medium<D>> for Cow<'a, Medium<D>> {
+    fn from(medium: &'a Medium<D>) -> Self {
+        Self::Borrowed(medium)
+    }
 }
 
 /// Where a field stands in `u_t = k div(D grad u)`.

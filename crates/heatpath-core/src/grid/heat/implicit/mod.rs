@@ -12,17 +12,18 @@ mod system;
 
 pub use options::{ImplicitError, ImplicitOptions};
 
-use super::operator::Operator;
+use super::operator::{FaceMean, Operator};
 use super::{Heat, Scheme, shares};
 use crate::exec::Exec;
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Sources};
 use crate::linear::{Analysis, Cholesky, Entries, Wide};
 use options::{explained, step};
+use std::borrow::Cow;
 use std::sync::Arc;
 use system::{check_memory, faces, matrix};
 
-/// Implicit heat in one medium, factored once for any number of sources.
+/// Implicit heat in one medium, borrowed or owned, factored once for any number of sources.
 ///
 /// One step of any length costs one pass through the factor, whatever the medium, and there is no
 /// stable step to keep: distances from many sources in one picture are much cheaper than by
@@ -45,8 +46,8 @@ use system::{check_memory, faces, matrix};
 /// ```
 #[derive(Debug)]
 pub struct Implicit<'a, const D: usize> {
-    medium: &'a Medium<D>,
-    operator: Operator<'a, D>,
+    medium: Cow<'a, Medium<D>>,
+    face_mean: FaceMean,
     /// The open cells in the order of elimination.
     cells: Vec<usize>,
     /// The place of each cell in that order.
@@ -63,25 +64,26 @@ impl<'a, const D: usize> Implicit<'a, D> {
     /// A time or number of steps out of range; more memory than allowed, in which case the message
     /// names both and nothing of that size was allocated; or the caller cancelled.
     pub fn new(
-        medium: &'a Medium<D>,
+        medium: impl Into<Cow<'a, Medium<D>>>,
         options: ImplicitOptions,
         exec: &Exec,
     ) -> Result<Self, ImplicitError> {
-        check_memory(medium, options.memory_limit)?;
-        let operator = Operator::new(medium, options.face_mean);
+        let (medium, face_mean) = (medium.into(), options.face_mean);
+        check_memory(&medium, options.memory_limit)?;
+        let operator = Operator::new(&medium, face_mean);
         let step = step(options.time, options.steps, operator.largest_stable_step())?;
         let cells = order::nested_dissection(medium.mask());
         let mut places = vec![0; medium.shape().cells()];
         cells.iter().enumerate().for_each(|(place, &cell)| places[cell] = place);
-        let couplings = faces(medium)
+        let couplings = faces(&medium)
             .map(|(axis, cell)| [places[cell], places[cell - medium.shape().stride(axis)]])
             .collect();
         let analysis =
             Analysis::new(cells.len(), couplings, options.memory_limit).map_err(explained)?;
-        let (diagonal, couplings) = matrix(medium, &operator, &cells, step);
+        let (diagonal, couplings) = matrix(&medium, &operator, &cells, step);
         let cholesky =
             Cholesky::new(Arc::new(analysis), &diagonal, &couplings, exec).map_err(explained)?;
-        Ok(Self { medium, operator, cells, places, cholesky, step, steps: options.steps })
+        Ok(Self { medium, face_mean, cells, places, cholesky, step, steps: options.steps })
     }
 
     /// The same medium with another time (in cell units) and number of steps.
@@ -96,12 +98,18 @@ impl<'a, const D: usize> Implicit<'a, D> {
         steps: usize,
         exec: &Exec,
     ) -> Result<Self, ImplicitError> {
-        let medium = self.medium;
-        self.step = step(time, steps, self.operator.largest_stable_step())?;
+        let operator = Operator::new(&self.medium, self.face_mean);
+        self.step = step(time, steps, operator.largest_stable_step())?;
         self.steps = steps;
-        let (diagonal, couplings) = matrix(medium, &self.operator, &self.cells, self.step);
+        let (diagonal, couplings) = matrix(&self.medium, &operator, &self.cells, self.step);
         self.cholesky.refactor(&diagonal, &couplings, exec).map_err(explained)?;
         Ok(self)
+    }
+
+    /// The medium.
+    #[must_use]
+    pub fn medium(&self) -> &Medium<D> {
+        &self.medium
     }
 
     /// The number of time steps.
@@ -245,7 +253,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
 
     /// `u / k` at a place.
     fn over_factor(&self, place: usize, u: Wide) -> Wide {
-        u.times(1.0 / self.operator.factor_of(self.cells[place]))
+        self.medium.factor().map_or(u, |factor| u.times(1.0 / factor.values()[self.cells[place]]))
     }
 
     /// The logarithms of values in the order of elimination, as a grid.

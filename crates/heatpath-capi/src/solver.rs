@@ -1,0 +1,196 @@
+//! Media prepared for many sources.
+
+use crate::buffer::hp_buffer;
+use crate::options::hp_options;
+use crate::pixels;
+use crate::prepared::{self, Prepared};
+use crate::problem::{read_medium, read_points};
+use crate::settings::Settings;
+use crate::status::{Failure, guard, hp_status};
+use crate::structs::check_pointer;
+use crate::view::{self, View};
+use heatpath_core::grid::Sources;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A medium prepared for distances from any sources.
+///
+/// Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
+/// threads may use it at once, and any thread may free it once the others are done.
+pub struct hp_solver {
+    prepared: AnyDimension,
+}
+
+enum AnyDimension {
+    Two(Prepared<2>),
+    Three(Prepared<3>),
+}
+
+/// Prepares distances from sources that are not known yet; with HP_SOLVER_IMPLICIT, analyses and
+/// factors the system.
+///
+/// image and mask are those of hp_distance(). They are not needed any more when this returns.
+///
+/// options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
+/// HP_MEDIUM_COMBINED need a reference, so NULL will not do. The estimator does not count.
+///
+/// solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
+/// returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
+/// message names the memory that it needs.
+///
+/// # Safety
+/// The structs are as large as their `struct_size` says, and buffers are as large as their
+/// description.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_solver_create(
+    image: *const hp_buffer,
+    mask: *const hp_buffer,
+    options: *const hp_options,
+    solver: *mut *mut hp_solver,
+) -> hp_status {
+    guard(|| {
+        check_pointer(solver, "solver")?;
+        // SAFETY: the caller promises room for a pointer; it is aligned.
+        unsafe { solver.write(std::ptr::null_mut()) };
+        // SAFETY: the caller's promise.
+        let prepared = unsafe {
+            match view::dimension(image)? {
+                2 => AnyDimension::Two(prepare(image, mask, options)?),
+                _ => AnyDimension::Three(prepare(image, mask, options)?),
+            }
+        };
+        // SAFETY: as above.
+        unsafe { solver.write(Box::into_raw(Box::new(hp_solver { prepared }))) };
+        Ok(())
+    })
+}
+
+/// # Safety
+/// As [`hp_solver_create`].
+unsafe fn prepare<const D: usize>(
+    image: *const hp_buffer,
+    mask: *const hp_buffer,
+    options: *const hp_options,
+) -> Result<Prepared<D>, Failure> {
+    // SAFETY: the caller's promise.
+    let (settings, medium) = unsafe {
+        let settings = Settings::read(options)?;
+        let medium = read_medium(image, mask, &settings)?;
+        (settings, medium)
+    };
+    let exec = settings.exec(|finished| settings.progress.report(finished))?;
+    let prepared = Prepared::new(medium, settings.method, &exec)?;
+    settings.progress.check(1.0)?;
+    Ok(prepared)
+}
+
+/// Computes the distance of every pixel from each of several sources: one map for each of them.
+///
+/// sources: source_count points, as for hp_distance().
+///
+/// options: only estimator, threads, progress and user count here; the rest was fixed when the
+/// solver was made. NULL for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the
+/// threads; the results do not depend on how many there are.
+///
+/// distances: describes the first map, as for hp_distance().
+///
+/// map_stride: the bytes from the first pixel of a map to that of the next one; negative if that
+/// lies before it. 0 means that maps follow each other without gaps. Maps must not lie in one
+/// another.
+///
+/// If the call is cancelled some of the maps may have been written; after any other failure none
+/// was.
+///
+/// # Safety
+/// `solver` is NULL or comes from hp_solver_create() and was not freed yet. The structs are as
+/// large as their `struct_size` says, and the maps and points are as large as their description.
+/// The results are not used by another thread meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_solver_distances(
+    solver: *const hp_solver,
+    sources: *const f64,
+    source_count: u64,
+    options: *const hp_options,
+    distances: *const hp_buffer,
+    map_stride: i64,
+) -> hp_status {
+    guard(|| {
+        check_pointer(solver, "solver")?;
+        // SAFETY: not NULL, aligned, and the caller's promise.
+        unsafe {
+            let settings = Settings::read(options)?;
+            let maps = (distances, map_stride);
+            match &(*solver).prepared {
+                AnyDimension::Two(prepared) => {
+                    let points = read_points(sources, source_count, "sources")?;
+                    write_maps(prepared, &points, &settings, maps)
+                }
+                AnyDimension::Three(prepared) => {
+                    let points = read_points(sources, source_count, "sources")?;
+                    write_maps(prepared, &points, &settings, maps)
+                }
+            }
+        }
+    })
+}
+
+/// # Safety
+/// As [`hp_solver_distances`].
+unsafe fn write_maps<const D: usize>(
+    prepared: &Prepared<D>,
+    points: &[[f64; D]],
+    settings: &Settings,
+    (distances, map_stride): (*const hp_buffer, i64),
+) -> Result<(), Failure> {
+    // SAFETY: the caller's promise.
+    let first = unsafe { View::<D>::read(distances, "distances")? };
+    pixels::check_writable(&first)?;
+    first.check_size(prepared.medium().shape())?;
+    let stride = first.map_stride(map_stride, points.len()).map_err(|f| f.of("distances"))?;
+    let sources = Sources::new(points, prepared.medium().mask())?.each();
+    // === A few at a time, so that their heat needs little memory
+    let (count, done, round) = (sources.len(), AtomicUsize::new(0), AtomicUsize::new(1));
+    let exec = settings.exec(|finished| {
+        let (done, round) = (done.load(Ordering::Relaxed), round.load(Ordering::Relaxed));
+        settings.progress.report((done as f64 + finished * round as f64) / count as f64)
+    })?;
+    for (number, sources) in sources.chunks(prepared.round(exec.threads())).enumerate() {
+        let before = number * prepared.round(exec.threads());
+        done.store(before, Ordering::Relaxed);
+        round.store(sources.len(), Ordering::Relaxed);
+        let heats = prepared.flow_each(sources, settings.estimator, &exec)?;
+        for (place, heat) in (before..).zip(&heats) {
+            let map = prepared::distances(heat, settings.estimator);
+            // SAFETY: the caller promises that the pixels can be written; their type was checked,
+            // and that all maps lie within memory.
+            unsafe { pixels::write(&first.moved(stride * place as isize), map.field().values()) };
+        }
+    }
+    settings.progress.check(1.0)
+}
+
+/// Frees a solver; NULL is fine.
+///
+/// # Safety
+/// `solver` is NULL or comes from hp_solver_create() and was not freed yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_solver_free(solver: *mut hp_solver) {
+    guard(|| {
+        if !solver.is_null() {
+            check_pointer(solver, "solver")?;
+            // SAFETY: made by `Box::into_raw`, and freed once, as the caller promises.
+            drop(unsafe { Box::from_raw(solver) });
+        }
+        Ok(())
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hp_solver;
+
+    #[test]
+    fn threads_may_share_a_solver() {
+        fn shared<T: Send + Sync>() {}
+        shared::<hp_solver>();
+    }
+}
