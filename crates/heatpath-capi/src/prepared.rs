@@ -4,7 +4,7 @@ use crate::settings::{Estimator, Method};
 use crate::status::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
-use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
+use heatpath_core::grid::distance::{DistanceMap, normalized, normalized_each, varadhan};
 use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions, Implicit};
 use heatpath_core::grid::medium::Medium;
 
@@ -86,5 +86,17 @@ pub(crate) fn distances<const D: usize>(heat: &Heat<D>, estimator: Estimator) ->
     match estimator {
         Estimator::Normalized => normalized(heat),
         Estimator::Varadhan => varadhan(heat),
+    }
+}
+
+/// Reads distances from several heats.
+pub(crate) fn distances_each<const D: usize>(
+    heats: &[Heat<D>],
+    estimator: Estimator,
+    exec: &Exec,
+) -> Vec<DistanceMap<D>> {
+    match estimator {
+        Estimator::Normalized => normalized_each(heats, exec),
+        Estimator::Varadhan => heats.iter().map(varadhan).collect(),
     }
 }

@@ -158,8 +158,8 @@ unsafe fn write_maps<const D: usize>(
         done.store(before, Ordering::Relaxed);
         round.store(sources.len(), Ordering::Relaxed);
         let heats = prepared.flow_each(sources, settings.estimator, &exec)?;
-        for (place, heat) in (before..).zip(&heats) {
-            let map = prepared::distances(heat, settings.estimator);
+        let maps = prepared::distances_each(&heats, settings.estimator, &exec);
+        for (place, map) in (before..).zip(&maps) {
             // SAFETY: the caller promises that the pixels can be written; their type was checked,
             // and that all maps lie within memory.
             unsafe { pixels::write(&first.moved(stride * place as isize), map.field().values()) };

@@ -5,7 +5,7 @@ mod matrix;
 mod varadhan;
 
 pub use matrix::distance_matrix;
-pub use varadhan::{normalized, varadhan};
+pub use varadhan::{normalized, normalized_each, varadhan};
 
 use super::{Grid, Shape};
 

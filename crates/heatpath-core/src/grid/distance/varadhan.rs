@@ -2,6 +2,7 @@
 
 use super::matern::Matern;
 use super::{DistanceMap, NOT_REACHED, interpolated};
+use crate::Exec;
 use crate::grid::heat::{Heat, Scheme};
 
 /// The distance as Varadhan's formula gives it: `sqrt(-4 t log u)` of explicit heat, as the paper
@@ -59,6 +60,14 @@ pub fn varadhan<const D: usize>(heat: &Heat<D>) -> DistanceMap<D> {
 #[must_use]
 pub fn normalized<const D: usize>(heat: &Heat<D>) -> DistanceMap<D> {
     map(heat, Readout::normalized(heat))
+}
+
+/// The [`normalized`] distances of several heats, which the threads of `exec` share.
+#[must_use]
+pub fn normalized_each<const D: usize>(heats: &[Heat<D>], exec: &Exec) -> Vec<DistanceMap<D>> {
+    let mut maps: Vec<_> = heats.iter().map(|heat| (heat, None)).collect();
+    exec.for_each(&mut maps, |(heat, map)| *map = Some(normalized(heat)));
+    maps.into_iter().filter_map(|(_, map)| map).collect()
 }
 
 /// The [`normalized`] distances at `points` alone.
