@@ -47,7 +47,7 @@ fn levels(criterion: &mut Criterion) {
 /// Pictures, each with steps for 5e8 to 7e8 updates, and the unit of speed on the same pictures.
 fn plane(criterion: &mut Criterion) {
     let mut group = group(criterion, "2-D");
-    for (side, point_steps, noise_steps) in [(1024, 1024, 640), (4096, 1024, 40)] {
+    for (side, point_steps, noise_steps) in [(1024, 1024, 640), (4096, 400, 40)] {
         let medium = conductivity(&picture([side; 2]));
         from_point(&mut group, &medium, point_steps);
         from_noise(&mut group, &medium, noise_steps);

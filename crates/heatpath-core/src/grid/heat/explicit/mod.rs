@@ -246,6 +246,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             step: self.step,
             iterations: self.iterations,
             exposure: self.exposure,
+            spare: self.iterations.saturating_sub(self.furthest(&shares)),
         };
         let (ln_temperature, ln_exposure) = self.march(&steps, &shares, report, exec)?;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
@@ -291,21 +292,34 @@ impl<'a, const D: usize> Explicit<'a, D> {
             temperature[cell] == f64::NEG_INFINITY
                 || exposure.is_some_and(|exposure| exposure[cell] == f64::NEG_INFINITY)
         };
-        if !(0..temperature.len()).any(|cell| cold(cell) && mask.is_open(cell)) {
-            return false;
+        (0..temperature.len()).any(|cell| cold(cell) && mask.is_open(cell))
+            && self.fronts(shares).take(self.iterations + 1).flatten().any(cold)
+    }
+
+    /// How many steps heat takes to the furthest cell that it can come to, or more.
+    fn furthest(&self, shares: &[(usize, f64)]) -> usize {
+        let shape = self.medium.shape();
+        if !self.medium.mask().is_all_open() {
+            return self.fronts(shares).count() - 1;
         }
-        let mut met = vec![false; temperature.len()];
-        let mut front: Vec<usize> = shares.iter().map(|&(cell, _)| cell).collect();
-        // Heat moves one cell a step.
-        for _ in 0..=self.iterations {
-            front.retain(|&cell| !std::mem::replace(&mut met[cell], true));
-            if front.is_empty() || front.iter().any(|&cell| cold(cell)) {
-                break;
-            }
-            let next = |&cell: &usize| self.medium.shape().neighbours(cell);
-            front = front.iter().flat_map(next).filter(|&n| mask.is_open(n) && !met[n]).collect();
-        }
-        front.iter().any(|&cell| cold(cell) && met[cell])
+        let furthest_from = |&(cell, _): &(usize, f64)| -> usize {
+            shape.index(cell).iter().zip(shape.size()).map(|(&i, n)| i.max(n - 1 - i)).sum()
+        };
+        shares.iter().map(furthest_from).min().unwrap_or(0)
+    }
+
+    /// The cells where heat is at first, and those to which it comes at each step: one cell further.
+    fn fronts(&self, shares: &[(usize, f64)]) -> impl Iterator<Item = Vec<usize>> {
+        let (shape, mask) = (self.medium.shape(), self.medium.mask());
+        let mut met = vec![false; shape.cells()];
+        let first: Vec<usize> = shares.iter().map(|&(cell, _)| cell).collect();
+        first.iter().for_each(|&cell| met[cell] = true);
+        std::iter::successors(Some(first), move |front| {
+            let mut next: Vec<usize> =
+                front.iter().flat_map(|&cell| shape.neighbours(cell)).collect();
+            next.retain(|&cell| mask.is_open(cell) && !std::mem::replace(&mut met[cell], true));
+            (!next.is_empty()).then_some(next)
+        })
     }
 }
 

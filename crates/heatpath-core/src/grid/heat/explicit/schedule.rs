@@ -25,6 +25,8 @@ pub(super) struct Steps<'a, const D: usize> {
     pub(super) iterations: usize,
     /// Whether to add up u.
     pub(super) exposure: bool,
+    /// How many steps heat has in reserve when it comes to the furthest cell.
+    pub(super) spare: usize,
 }
 
 /// How the grid is cut.
@@ -49,6 +51,11 @@ impl<const D: usize> Tiling<D> {
             edge: std::array::from_fn(|axis| if axis == 0 { length } else { edge }),
             steps: edge / 8,
         })
+    }
+
+    /// The most steps that heat takes from any cell of a window to any other, if there are no walls.
+    fn reach(&self) -> usize {
+        self.edge.iter().map(|edge| edge + 2 * self.steps).sum()
     }
 }
 
@@ -132,6 +139,10 @@ impl<const D: usize> Tiles<D> {
     }
 
     /// Lets heat flow; `None` if a tile cannot hold the range of its values.
+    ///
+    /// A value that is lost below the range of a window is made up for within the steps that heat
+    /// takes through the window, since it is nothing next to the heat in the same window. Only
+    /// where heat has just arrived, and has no steps to spare, does it matter for ever.
     pub(super) fn march(
         mut self,
         steps: &Steps<D>,
@@ -160,7 +171,7 @@ impl<const D: usize> Tiles<D> {
             }
             self.visited = visited;
             done += count;
-            if has_lost {
+            if has_lost && steps.spare < self.tiling.reach() {
                 return Ok(None);
             }
         }
