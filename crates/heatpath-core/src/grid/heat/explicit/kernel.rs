@@ -70,8 +70,6 @@ impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
 pub(super) struct Window<const D: usize> {
     /// The numbers from one row to the next along each axis but x (0 along x).
     strides: [usize; D],
-    /// How many steps it can be advanced by.
-    steps: usize,
     pub(super) u: Aligned,
     /// `step x k` of every cell, or of one row if it is the same everywhere.
     pub(super) rate: Aligned,
@@ -110,7 +108,7 @@ impl<const D: usize> Extent<D> {
 
     /// The cells of a row that are computed.
     #[inline(always)]
-    pub(super) fn row_length(&self) -> usize {
+    fn row_length(&self) -> usize {
         self.size[0].next_multiple_of(ROW_MULTIPLE)
     }
 }
@@ -126,7 +124,6 @@ impl<const D: usize> Window<D> {
         }
         Self {
             strides,
-            steps,
             u: Aligned::zeros(numbers),
             rate: Aligned::zeros(numbers),
             rate_is_uniform: false,
@@ -161,7 +158,6 @@ impl<const D: usize> Window<D> {
         extent: &Extent<D>,
         steps: usize,
     ) {
-        debug_assert!(steps <= self.steps);
         self.inflow_last.fill(0.0);
         for front in 0..extent.size[D - 1] + steps - 1 {
             for step in 0..steps.min(front + 1) {

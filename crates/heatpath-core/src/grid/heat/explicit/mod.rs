@@ -110,8 +110,8 @@ pub enum HeatError {
     Iterations(f64),
     /// u falls by more than 578 powers of ten within a few cells.
     #[error(
-        "the heat falls by more than 578 powers of ten within some 8 cells: the medium is too slow \
-         there; raise its floor, or make these cells walls"
+        "the heat falls by more than 578 powers of ten within some 8 cells, or from one side of a \
+         wall to the other: the medium is too slow there; raise its floor, or make slow cells walls"
     )]
     Range,
     /// The caller cancelled.
@@ -194,8 +194,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// The medium is slower in places than any range of numbers, or the caller cancelled.
     pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
         let amounts = vec![1.0; sources.points().len()];
-        let heat =
-            self.flow_amounts(sources, amounts, &mut |finished| exec.report(finished), exec)?;
+        let report = &mut |finished| exec.report(finished);
+        let heat = self.flow_amounts(sources, amounts, self.exposure, report, exec)?;
         exec.report(1.0)?;
         Ok(heat)
     }
@@ -214,12 +214,12 @@ impl<'a, const D: usize> Explicit<'a, D> {
             return self.flow(sources, exec);
         }
         let first_half = &mut |finished: f64| exec.report(0.5 * finished);
-        let heat = self.flow_amounts(sources, vec![1.0; count], first_half, exec)?;
+        let heat = self.flow_amounts(sources, vec![1.0; count], false, first_half, exec)?;
         let ln_temperatures = heat.ln_temperature_at_sources();
         let hottest = ln_temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let amounts = ln_temperatures.iter().map(|ln| (hottest - ln).exp()).collect();
         let second_half = &mut |finished: f64| exec.report(0.5 + 0.5 * finished);
-        let heat = self.flow_amounts(sources, amounts, second_half, exec)?;
+        let heat = self.flow_amounts(sources, amounts, self.exposure, second_half, exec)?;
         exec.report(1.0)?;
         Ok(heat)
     }
@@ -228,6 +228,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         &self,
         sources: &Sources<D>,
         amounts: Vec<f64>,
+        exposure: bool,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Heat<D>, HeatError> {
@@ -245,8 +246,8 @@ impl<'a, const D: usize> Explicit<'a, D> {
             factor: self.medium.factor(),
             step: self.step,
             iterations: self.iterations,
-            exposure: self.exposure,
-            spare: self.iterations.saturating_sub(self.furthest(&shares)),
+            exposure,
+            spare: self.spare(&shares),
         };
         let (ln_temperature, ln_exposure) = self.march(&steps, &shares, report, exec)?;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
@@ -296,16 +297,17 @@ impl<'a, const D: usize> Explicit<'a, D> {
             && self.fronts(shares).take(self.iterations + 1).flatten().any(cold)
     }
 
-    /// How many steps heat takes to the furthest cell that it can come to, or more.
-    fn furthest(&self, shares: &[(usize, f64)]) -> usize {
-        let shape = self.medium.shape();
+    /// How many steps heat has in reserve when it comes to the furthest cell, if there are no walls.
+    fn spare(&self, shares: &[(usize, f64)]) -> Option<usize> {
         if !self.medium.mask().is_all_open() {
-            return self.fronts(shares).count() - 1;
+            return None;
         }
+        let shape = self.medium.shape();
         let furthest_from = |&(cell, _): &(usize, f64)| -> usize {
             shape.index(cell).iter().zip(shape.size()).map(|(&i, n)| i.max(n - 1 - i)).sum()
         };
-        shares.iter().map(furthest_from).min().unwrap_or(0)
+        let furthest = shares.iter().map(furthest_from).min().unwrap_or(0);
+        Some(self.iterations.saturating_sub(furthest))
     }
 
     /// The cells where heat is at first, and those to which it comes at each step: one cell further.

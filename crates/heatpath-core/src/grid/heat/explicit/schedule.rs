@@ -1,8 +1,8 @@
 //! In which order rows are computed: tiles, several steps a visit, threads, range.
 //!
 //! The grid is cut into tiles. A tile is advanced by several steps at a time in a small scratch
-//! window: the tile is copied in with a margin as wide as the number of steps, and each step
-//! computes a box one cell narrower on every side, until the tile itself is left. The cells of the
+//! window: the tile is copied in with a margin as wide as the number of steps, of which each step
+//! leaves one cell less that is right, until the tile itself is left. The cells of the
 //! margin are computed by more than one tile; in return a tile is visited once for several steps
 //! and stays in cache, tiles depend on nothing but the state before the visit, so they can run on
 //! any thread in any order with the same result, and each tile keeps an exponent of its own.
@@ -25,8 +25,8 @@ pub(super) struct Steps<'a, const D: usize> {
     pub(super) iterations: usize,
     /// Whether to add up u.
     pub(super) exposure: bool,
-    /// How many steps heat has in reserve when it comes to the furthest cell.
-    pub(super) spare: usize,
+    /// How many steps heat has in reserve when it comes to the furthest cell, if that is known.
+    pub(super) spare: Option<usize>,
 }
 
 /// How the grid is cut.
@@ -141,8 +141,9 @@ impl<const D: usize> Tiles<D> {
     /// Lets heat flow; `None` if a tile cannot hold the range of its values.
     ///
     /// A value that is lost below the range of a window is made up for within the steps that heat
-    /// takes through the window, since it is nothing next to the heat in the same window. Only
-    /// where heat has just arrived, and has no steps to spare, does it matter for ever.
+    /// takes through the window, since it is nothing next to the heat in the same window. So no value
+    /// may be lost in the last steps; and none at all if heat comes to some cell with no steps to
+    /// spare, which then rests on the very first arrivals.
     pub(super) fn march(
         mut self,
         steps: &Steps<D>,
@@ -171,7 +172,9 @@ impl<const D: usize> Tiles<D> {
             }
             self.visited = visited;
             done += count;
-            if has_lost && steps.spare < self.tiling.reach() {
+            let reach = self.tiling.reach();
+            let is_late = done + reach > steps.iterations;
+            if has_lost && (is_late || steps.spare.is_some_and(|spare| spare < reach)) {
                 return Ok(None);
             }
         }
