@@ -18,7 +18,7 @@ fn conductance<const D: usize>(medium: &Medium<D>, axis: usize, a: usize, b: usi
     let shape = medium.shape();
     let open = medium.mask().is_open(a) && medium.mask().is_open(b);
     let harmonic = |x: f64, y: f64| 2.0 * x * y / (x + y);
-    let mean = medium.diffusion().map_or(1.0, |d| harmonic(d.values()[a], d.values()[b]));
+    let mean = medium.diffusion().scalar().map_or(1.0, |d| harmonic(d.values()[a], d.values()[b]));
     let scale = (shape.smallest_spacing() / shape.spacing()[axis]).powi(2);
     if open { scale * mean } else { 0.0 }
 }

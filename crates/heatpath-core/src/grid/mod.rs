@@ -16,8 +16,10 @@ pub mod path;
 mod sample;
 mod shape;
 mod source;
+mod tensor;
 
 pub use field::{Grid, LengthError, NotFinite, fraction};
 pub use mask::Mask;
 pub use shape::{Shape, ShapeError};
 pub use source::{PointError, Sources, check_points};
+pub use tensor::{Matrix, TensorField};

@@ -1,6 +1,6 @@
 //! The discrete `k div(D grad u)`.
 
-use crate::grid::medium::Medium;
+use crate::grid::medium::{Diffusion, Medium};
 
 /// How the diffusion coefficient of a face is made from the two cells that share it.
 ///
@@ -52,7 +52,7 @@ impl<'a, const D: usize> Operator<'a, D> {
     /// on the grid, as long as both are open.
     #[inline]
     fn between_open(&self, axis: usize, cell: usize) -> f64 {
-        let diffusion = self.medium.diffusion().map_or(1.0, |field| {
+        let diffusion = self.medium.diffusion().scalar().map_or(1.0, |field| {
             let values = field.values();
             self.mean.of(values[cell], values[cell + self.medium.shape().stride(axis)])
         });
@@ -79,7 +79,7 @@ impl<'a, const D: usize> Operator<'a, D> {
 
     /// Whether every face inside the grid has its [`uniform_conductance`](Self::uniform_conductance).
     pub(super) fn is_uniform(&self) -> bool {
-        self.medium.diffusion().is_none() && self.medium.mask().is_all_open()
+        matches!(self.medium.diffusion(), Diffusion::Uniform) && self.medium.mask().is_all_open()
     }
 
     /// The conductance of the face between the cell at a position and the one before it along

@@ -2,7 +2,7 @@
 
 use super::conductivity::alpha;
 use super::perona_malik::edge_stopping;
-use super::{ConductivityOptions, Form, Medium, MediumError, PeronaMalikOptions};
+use super::{ConductivityOptions, Diffusion, Form, Medium, MediumError, PeronaMalikOptions};
 use crate::grid::{Grid, Mask};
 
 /// The combined medium `u_t = alpha div(D grad u)` (eq. 10), with alpha of eq. (6) and D of
@@ -23,11 +23,14 @@ pub fn combined<const D: usize>(
     let diffusion = edge_stopping(image, perona_malik)?;
     let mask = Mask::all_open(*image.shape());
     match perona_malik.form {
-        Form::Divergence => Ok(Medium { factor: Some(factor), diffusion: Some(diffusion), mask }),
+        Form::Divergence => {
+            let diffusion = Diffusion::Scalar(diffusion);
+            Ok(Medium { factor: Some(factor), diffusion, mask })
+        }
         Form::Pointwise => {
             let pairs = factor.values_mut().iter_mut().zip(diffusion.values());
             pairs.for_each(|(k, d)| *k *= d);
-            Ok(Medium { factor: Some(factor), diffusion: None, mask })
+            Ok(Medium { factor: Some(factor), diffusion: Diffusion::Uniform, mask })
         }
     }
 }
@@ -47,6 +50,7 @@ mod tests {
             combined(&image, &[0.5], ConductivityOptions::default(), perona_malik).unwrap()
         });
         assert_eq!(media[0].speed_sq_field(), media[1].speed_sq_field());
-        assert!(media[0].diffusion().is_some() && media[1].diffusion().is_none());
+        assert!(matches!(media[0].diffusion(), Diffusion::Scalar(_)));
+        assert!(matches!(media[1].diffusion(), Diffusion::Uniform));
     }
 }

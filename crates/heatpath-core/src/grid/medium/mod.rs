@@ -14,12 +14,13 @@ mod uniform;
 pub use combined::combined;
 pub use conductivity::{ConductivityOptions, conductivity};
 pub use edges::{EdgesOptions, edges};
-pub use given::{GIVEN_RANGE, given};
+pub use given::{GIVEN_RANGE, given, given_tensor};
 pub use perona_malik::{EdgeStop, PeronaMalikOptions, SMALLEST_DIFFUSION, perona_malik};
 pub use uniform::uniform;
 
 use super::filter::SigmaError;
-use super::{Grid, Mask, NotFinite, Shape};
+use super::tensor::determinant;
+use super::{Grid, Mask, Matrix, NotFinite, Shape, TensorField};
 use std::borrow::Cow;
 use thiserror::Error;
 
@@ -27,8 +28,34 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Medium<const D: usize> {
     factor: Option<Grid<f64, D>>,
-    diffusion: Option<Grid<f64, D>>,
+    diffusion: Diffusion<D>,
     mask: Mask<D>,
+}
+
+/// The diffusion coefficient D inside the divergence.
+#[derive(Clone, Debug)]
+pub enum Diffusion<const D: usize> {
+    /// 1 everywhere.
+    Uniform,
+    /// A positive number per cell: heat flows alike in all directions.
+    Scalar(Grid<f64, D>),
+    /// A symmetric positive definite matrix per cell (eq. 12): the diffusion tensor, which is the
+    /// inverse of the metric tensor.
+    Tensor(TensorField<D>),
+}
+
+impl<const D: usize> Diffusion<D> {
+    /// The number of each cell, if it is a [`Scalar`](Self::Scalar) field.
+    #[must_use]
+    pub fn scalar(&self) -> Option<&Grid<f64, D>> {
+        if let Self::Scalar(field) = self { Some(field) } else { None }
+    }
+
+    /// The matrix of each cell, if it is a [`Tensor`](Self::Tensor) field.
+    #[must_use]
+    pub fn tensor(&self) -> Option<&TensorField<D>> {
+        if let Self::Tensor(field) = self { Some(field) } else { None }
+    }
 }
 
 impl<const D: usize> From<Medium<D>> for Cow<'_, Medium<D>> {
@@ -70,6 +97,17 @@ pub enum MediumError {
         index: Vec<usize>,
         /// Its value.
         value: f64,
+    },
+    /// A given tensor is not positive definite somewhere, or absurd.
+    #[error(
+        "the given tensor is {value:?} at {index:?}; it must be symmetric and positive definite \
+         everywhere, with eigenvalues from 1e-100 to 1e100 (use a mask for walls)"
+    )]
+    GivenTensor {
+        /// The index of the first such cell.
+        index: Vec<usize>,
+        /// Its rows.
+        value: Vec<Vec<f64>>,
     },
     /// A parameter is outside its range.
     #[error("{name} is {value}; it must be {range}")]
@@ -127,18 +165,40 @@ impl<const D: usize> Medium<D> {
         self.factor.as_ref()
     }
 
-    /// The diffusion coefficient D inside the divergence; `None` stands for 1 everywhere.
+    /// The diffusion coefficient D inside the divergence.
     #[must_use]
-    pub fn diffusion(&self) -> Option<&Grid<f64, D>> {
-        self.diffusion.as_ref()
+    pub fn diffusion(&self) -> &Diffusion<D> {
+        &self.diffusion
     }
 
     /// The squared speed `k D` in the cell at `position`: lengths are `ds / sqrt(k D)`.
+    ///
+    /// Of a tensor it is the geometric mean over its principal directions, `k det(D)^(1/N)`.
     #[must_use]
     pub fn speed_sq(&self, position: usize) -> f64 {
-        let at =
-            |field: &Option<Grid<f64, D>>| field.as_ref().map_or(1.0, |f| f.values()[position]);
-        at(&self.factor) * at(&self.diffusion)
+        self.factor_at(position)
+            * match &self.diffusion {
+                Diffusion::Uniform => 1.0,
+                Diffusion::Scalar(field) => field.values()[position],
+                Diffusion::Tensor(field) => determinant(&field.at(position)).powf(1.0 / D as f64),
+            }
+    }
+
+    /// The matrix `k D` in the cell at `position`: lengths are `sqrt(dx' (k D)^-1 dx)`.
+    #[must_use]
+    pub fn speed_sq_tensor(&self, position: usize) -> Matrix<D> {
+        let factor = self.factor_at(position);
+        if let Diffusion::Tensor(field) = &self.diffusion {
+            return field.at(position).map(|row| row.map(|component| factor * component));
+        }
+        let speed_sq = self.speed_sq(position);
+        let mut matrix = [[0.0; D]; D];
+        (0..D).for_each(|axis| matrix[axis][axis] = speed_sq);
+        matrix
+    }
+
+    fn factor_at(&self, position: usize) -> f64 {
+        self.factor.as_ref().map_or(1.0, |factor| factor.values()[position])
     }
 
     /// The squared speed `k D` of every cell, 0 in walls: a picture of what the heat sees.
@@ -155,8 +215,8 @@ impl<const D: usize> Medium<D> {
     fn from_field(field: Grid<f64, D>, form: Form) -> Self {
         let mask = Mask::all_open(*field.shape());
         match form {
-            Form::Divergence => Self { factor: None, diffusion: Some(field), mask },
-            Form::Pointwise => Self { factor: Some(field), diffusion: None, mask },
+            Form::Divergence => Self { factor: None, diffusion: Diffusion::Scalar(field), mask },
+            Form::Pointwise => Self { factor: Some(field), diffusion: Diffusion::Uniform, mask },
         }
     }
 }
