@@ -1,9 +1,11 @@
 //! Distances from the sources.
 
+mod eikonal;
 pub(super) mod matern;
 mod matrix;
 mod varadhan;
 
+pub use eikonal::test_distance;
 pub use matrix::distance_matrix;
 pub use varadhan::{normalized, normalized_each, varadhan};
 
