@@ -101,8 +101,11 @@ pub(crate) fn determinant<const D: usize>(m: &Matrix<D>) -> f64 {
 
 /// The inverse of a symmetric positive definite matrix of one to three rows.
 #[must_use]
-pub(crate) fn inverse<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
-    let determinant = determinant(m);
+pub(crate) fn inverse<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
+    // The products of three numbers of any size would leave the range of floating point.
+    let size: f64 = (0..D).map(|axis| matrix[axis][axis]).sum();
+    let m = matrix.map(|row| row.map(|component| component / size));
+    let determinant = determinant(&m) * size;
     let cofactor = |row: usize, column: usize| match D {
         1 => 1.0,
         2 if row == column => m[1 - row][1 - row],

@@ -5,7 +5,7 @@ pub(super) mod matern;
 mod matrix;
 mod varadhan;
 
-pub use eikonal::test_distance;
+pub use eikonal::{Eikonal, EikonalError, EikonalOptions, Order};
 pub use matrix::distance_matrix;
 pub use varadhan::{normalized, normalized_each, varadhan};
 

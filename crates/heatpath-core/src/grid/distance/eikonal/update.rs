@@ -38,6 +38,10 @@ impl<const N: usize> Differences<N> {
         self.len += 1;
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
     /// The larger root T of the equation over as many of the nearest neighbours as are nearer than
     /// it; `None` if there is none.
     #[inline]
