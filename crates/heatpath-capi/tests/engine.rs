@@ -149,7 +149,7 @@ fn paths_are_those_of_the_engine() {
     let ends = [[20.0, 3.5], [45.0, 5.0], [2.0, 38.0]];
     let medium = engine_medium(HP_MEDIUM_CONDUCTIVITY);
     let heat = engine_heat(&medium, HP_NORMALIZED);
-    let (descent, distances) = (Descent::new(&heat).unwrap(), normalized(&heat));
+    let (descent, distances) = (Descent::new(&heat, medium).unwrap(), normalized(&heat));
 
     let (mut image, mut mask) = pixels();
     let (image, mask) = (buffer(&mut image, HP_U16), buffer(&mut mask, HP_U16));

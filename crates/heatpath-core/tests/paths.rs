@@ -22,7 +22,7 @@ fn paths<const D: usize>(
     options: HeatOptions,
 ) -> Vec<Path<D>> {
     let heat = flow(medium, sources, options);
-    let (descent, distances) = (Descent::new(&heat).unwrap(), normalized(&heat));
+    let (descent, distances) = (Descent::new(&heat, medium).unwrap(), normalized(&heat));
     let path = |&end| descent.path(end, &distances, PathOptions::default()).unwrap();
     ends.iter().map(path).collect()
 }
@@ -129,7 +129,7 @@ fn a_path_says_why_it_does_not_reach_a_source() {
     let medium = medium::uniform(shape).with_walls(Mask::new(walls)).unwrap();
     let options = HeatOptions { duration: Duration::Iterations(10), ..HeatOptions::default() };
     let heat = flow(&medium, &[[5.0, 5.0]], options);
-    let (descent, distances) = (Descent::new(&heat).unwrap(), normalized(&heat));
+    let (descent, distances) = (Descent::new(&heat, &medium).unwrap(), normalized(&heat));
     let ending = |end, options| descent.path(end, &distances, options).map(|path| path.ending);
     let usual = PathOptions::default();
     assert_eq!(ending([30.0, 5.0], usual), Ok(Ending::Unreachable));

@@ -150,6 +150,21 @@ impl<const D: usize> Shape<D> {
         })
     }
 
+    /// The cells at most `radius` cells away along every axis from the cell at `position`.
+    pub(crate) fn box_around(&self, position: usize, radius: usize) -> impl Iterator<Item = usize> {
+        let index = self.index(position);
+        let low = index.map(|i| i.saturating_sub(radius));
+        let size = std::array::from_fn(|axis| {
+            (index[axis] + radius).min(self.size[axis] - 1) + 1 - low[axis]
+        });
+        let shape = *self;
+        let cells = shape.with_size(size);
+        (0..cells.cells()).map(move |cell| {
+            let offset = cells.index(cell);
+            shape.position(std::array::from_fn(|axis| low[axis] + offset[axis]))
+        })
+    }
+
     /// Whether `point`, in pixel coordinates, lies on the grid (`-0.5 ..= size - 0.5`).
     #[must_use]
     pub fn contains(&self, point: [f64; D]) -> bool {

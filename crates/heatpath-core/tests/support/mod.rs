@@ -62,6 +62,6 @@ pub(crate) fn paths(
     let exec = Exec::single_threaded();
     let sources = Sources::new(sources, medium.mask()).unwrap();
     let heat = Implicit::new(medium, options, &exec).unwrap().flow(&sources, &exec).unwrap();
-    let (descent, distances) = (Descent::new(&heat).unwrap(), normalized(&heat));
+    let (descent, distances) = (Descent::new(&heat, medium).unwrap(), normalized(&heat));
     ends.iter().map(|&end| descent.path(end, &distances, PathOptions::default()).unwrap()).collect()
 }

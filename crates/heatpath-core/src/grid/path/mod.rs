@@ -1,17 +1,20 @@
 //! Minimal paths: from an end point down to a source (Yang & Cohen, eq. 4).
 //!
-//! A path descends a potential that decreases towards the sources. For heat the potential is made
+//! A path descends a potential that decreases towards the sources, against its gradient in the metric
+//! of the medium: `-k D grad`. Of a distance the potential is its square. Of heat it is made
 //! of the exposure ([`Heat::ln_exposure`]), not of the temperature: the warmest point drifts away
 //! from the source while heat flows, and a descent of the temperature ends there. The exposure has
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
-use super::distance::matern::Matern;
+mod potential;
+
 use super::distance::{DistanceMap, NOT_REACHED};
-use super::heat::{Heat, NoExposure, Scheme};
+use super::heat::{Heat, NoExposure};
+use super::medium::Medium;
 use super::sample::corners;
+use super::tensor::apply;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
-use std::f64::consts::PI;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,29 +63,47 @@ impl Default for PathOptions {
     }
 }
 
+/// How far to look for a lower cell, in cells.
+const FARTHEST_OFFSET: usize = 16;
+
 /// A potential to descend, with its sources and walls: traces any number of paths.
 #[derive(Clone, Debug)]
-pub struct Descent<const D: usize> {
+pub struct Descent<'a, const D: usize> {
     /// Infinite where nothing has arrived.
     potential: Grid<f64, D>,
-    mask: Mask<D>,
+    medium: &'a Medium<D>,
     sources: Sources<D>,
     /// The cells that are connected to a source.
     connected: Grid<bool, D>,
 }
 
-impl<const D: usize> Descent<D> {
-    /// The descent towards the sources of `heat`.
+impl<'a, const D: usize> Descent<'a, D> {
+    /// The descent towards the sources of `heat`, which has flowed in `medium`.
     ///
     /// # Errors
     /// The heat was made without its exposure.
-    pub fn new(heat: &Heat<D>) -> Result<Self, NoExposure> {
-        let potential = potential(heat)?;
-        let (mask, sources) = (heat.mask().clone(), heat.sources().clone());
-        let shape = *mask.shape();
+    pub fn new(heat: &Heat<D>, medium: &'a Medium<D>) -> Result<Self, NoExposure> {
+        Ok(Self::down(potential::of_heat(heat)?, heat.sources(), medium))
+    }
+
+    /// The descent of the `distances` from `sources` in `medium`, such as those of
+    /// [`Eikonal`](super::distance::Eikonal).
+    #[must_use]
+    pub fn of_distances(
+        distances: &DistanceMap<D>,
+        sources: &Sources<D>,
+        medium: &'a Medium<D>,
+    ) -> Self {
+        // Smooth at the sources, where the distance itself has a kink.
+        let potential = distances.field().map(|distance| distance * distance);
+        Self::down(potential, sources, medium)
+    }
+
+    fn down(potential: Grid<f64, D>, sources: &Sources<D>, medium: &'a Medium<D>) -> Self {
+        let shape = medium.shape();
         let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
-        let connected = mask.reachable_from(cells);
-        Ok(Self { potential, mask, sources, connected })
+        let connected = medium.mask().reachable_from(cells);
+        Self { potential, medium, sources: sources.clone(), connected }
     }
 
     /// Traces the path from `end` (pixel coordinates) to a source.
@@ -98,7 +119,7 @@ impl<const D: usize> Descent<D> {
         distances: &DistanceMap<D>,
         options: PathOptions,
     ) -> Result<Path<D>, PointError> {
-        check_points("end", &[end], &self.mask)?;
+        check_points("end", &[end], self.mask())?;
         let (points, ending) = self.trace(end, options);
         let pairs = || points.windows(2).map(|pair| (pair[0], pair[1]));
         let pixels = self.shape().unit_spacing();
@@ -113,7 +134,11 @@ impl<const D: usize> Descent<D> {
     }
 
     fn shape(&self) -> &Shape<D> {
-        self.mask.shape()
+        self.medium.shape()
+    }
+
+    fn mask(&self) -> &Mask<D> {
+        self.medium.mask()
     }
 
     fn trace(&self, end: [f64; D], options: PathOptions) -> (Vec<[f64; D]>, Ending) {
@@ -151,7 +176,7 @@ impl<const D: usize> Descent<D> {
         let distance = |source: [f64; D]| self.shape().physical_distance(point, source);
         let in_sight = |source: [f64; D]| {
             (0..D).all(|axis| (point[axis] - source[axis]).abs() < 1.0)
-                && self.mask.segment_is_open(point, source)
+                && self.mask().segment_is_open(point, source)
         };
         let sources = self.sources.points().iter().enumerate();
         sources
@@ -169,7 +194,7 @@ impl<const D: usize> Descent<D> {
         let moved = self.shape().physical_distance(here, next) / self.shape().smallest_spacing();
         let fine = moved > 0.25 * step
             && self.value(next) < self.value(here)
-            && self.mask.segment_is_open(here, next);
+            && self.mask().segment_is_open(here, next);
         fine.then_some(next)
     }
 
@@ -184,17 +209,12 @@ impl<const D: usize> Descent<D> {
     /// Walks from cell to neighbouring cell, each time to the lowest, until below `level`.
     ///
     /// This is the way out wherever the interpolated potential has no descent: the cells
-    /// themselves always have one.
+    /// themselves always have one, to a neighbour or along the lattice.
     fn walk_below(&self, level: f64, here: [f64; D], points: &mut Vec<[f64; D]>) {
         let mut cell = self.shape().position(self.shape().cell_at(here));
         loop {
-            let lowest = self
-                .shape()
-                .neighbours(cell)
-                .filter(|&next| self.mask.is_open(next))
-                .min_by(|&a, &b| self.at(a).total_cmp(&self.at(b)));
-            let Some(next) = lowest.filter(|&next| self.at(next) < self.at(cell)) else {
-                // Only a source has no lower neighbour.
+            let Some(next) = self.lower(cell) else {
+                // Only a source has no lower cell around it.
                 points.push(self.shape().centre(cell));
                 return;
             };
@@ -204,6 +224,24 @@ impl<const D: usize> Descent<D> {
                 return;
             }
         }
+    }
+
+    /// The lowest of the cells around a cell that is lower than itself: of its neighbours, or if there
+    /// is none, of the nearest in sight. In an anisotropic medium heat comes along the lattice's
+    /// offsets, which may lead past the neighbours.
+    fn lower(&self, cell: usize) -> Option<usize> {
+        let lowest = |cells: &mut dyn Iterator<Item = usize>| {
+            cells
+                .filter(|&next| self.at(next) < self.at(cell) && self.mask().is_open(next))
+                .min_by(|&a, &b| self.at(a).total_cmp(&self.at(b)))
+        };
+        let shape = self.shape();
+        lowest(&mut shape.neighbours(cell)).or_else(|| {
+            let here = shape.centre(cell);
+            let in_sight = |&next: &usize| self.mask().segment_is_open(here, shape.centre(next));
+            (1..=FARTHEST_OFFSET)
+                .find_map(|radius| lowest(&mut shape.box_around(cell, radius).filter(in_sight)))
+        })
     }
 
     fn at(&self, cell: usize) -> f64 {
@@ -224,8 +262,10 @@ impl<const D: usize> Descent<D> {
     /// length; `None` where the potential is flat.
     fn direction(&self, point: [f64; D]) -> Option<[f64; D]> {
         let mut gradient = [0.0; D];
+        let tensors = self.medium.diffusion().tensor();
         for (cell, weight) in self.reached_corners(point) {
             let slopes = self.slopes(cell);
+            let slopes = tensors.map_or(slopes, |tensors| apply(&tensors.at(cell), slopes));
             (0..D).for_each(|axis| gradient[axis] += weight * slopes[axis]);
         }
         // === From physical slopes to a unit of physical length, in pixel coordinates
@@ -257,92 +297,26 @@ impl<const D: usize> Descent<D> {
     }
 }
 
-/// Exposure as a potential that is lowest at the sources.
-///
-/// In the uniform plane the exposure from a unit source is `E1(r^2 / 4t) / 4 pi`, in space it is
-/// `erfc(r / sqrt(4t)) / 4 pi r`. The functions of the exposure used here are monotone, so they
-/// change no path, but they are close to `r^2 / 4t` near the source as well as far from it: central
-/// differences and interpolation are nearly exact for such a function, and paths come straight into
-/// the source.
-///
-/// Of implicit heat the potential is the square of the distance at which it would be as large in a
-/// uniform medium.
-fn potential<const D: usize>(heat: &Heat<D>) -> Result<Grid<f64, D>, NoExposure> {
-    let exposure = heat.ln_exposure()?;
-    if heat.scheme() == Scheme::Implicit {
-        return Ok(implicit_potential(heat, exposure));
-    }
-    let speeds = heat.speeds_sq.iter().zip(&heat.amounts);
-    let scale =
-        speeds.map(|(speed_sq, amount)| 4.0 * PI * speed_sq / amount).fold(f64::MAX, f64::min);
-    let unit =
-        if D < 3 { scale * heat.step } else { scale * heat.step * (4.0 * heat.time()).sqrt() };
-    // Where heat is trapped around its source, exp(-exposure) would leave the range of numbers.
-    let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let ln_unit = unit.ln().min(30_f64.ln() - highest);
-    Ok(exposure.map(|&ln_exposure| {
-        let ln = ln_exposure + ln_unit;
-        if ln == f64::NEG_INFINITY {
-            f64::INFINITY
-        } else if D < 3 {
-            minus_ln_of_one_minus_exp_of_minus(ln)
-        } else if ln < -30.0 {
-            -2.0 * ln
-        } else {
-            (-2.0 * ln).exp().ln_1p()
-        }
-    }))
-}
-
-fn implicit_potential<const D: usize>(heat: &Heat<D>, exposure: &Grid<f64, D>) -> Grid<f64, D> {
-    let dimension = heat.shape().dimension();
-    let matern = Matern { dimension, steps: heat.iterations(), sum: true };
-    let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    // Where heat is trapped around its source, there would be no such distance.
-    let strength = heat.ln_reference().max(highest - matern.ln(1e-4).0);
-    let mut last = 1.0;
-    exposure.map(|&ln_exposure| {
-        if ln_exposure == f64::NEG_INFINITY {
-            return f64::INFINITY;
-        }
-        last = matern.distance(ln_exposure - strength, last);
-        last * last
-    })
-}
-
-/// `-ln(1 - exp(-a))` for `a = exp(ln_a)`, accurate for all of them: it is close to `exp(-a)` for
-/// large a and to `-ln(a)` for small a.
-fn minus_ln_of_one_minus_exp_of_minus(ln_a: f64) -> f64 {
-    let a = ln_a.exp();
-    if ln_a < -30.0 {
-        -ln_a
-    } else if a < 0.5 {
-        -(-(-a).exp_m1()).ln()
-    } else {
-        -(-(-a).exp()).ln_1p()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::medium::uniform;
 
     /// The potential `x^2 + 3 y^2` around a source in the middle: its curves of steepest descent
     /// are `y = c x^3`.
-    fn paraboloid() -> Descent<2> {
-        let shape = Shape::new([121, 121]).unwrap();
-        let mask = Mask::all_open(shape);
-        let potential = Grid::from_fn(shape, |[x, y]| {
+    fn paraboloid(medium: &Medium<2>) -> Descent<'_, 2> {
+        let potential = Grid::from_fn(*medium.shape(), |[x, y]| {
             let (x, y) = (x as f64 - 60.0, y as f64 - 60.0);
             x * x + 3.0 * y * y
         });
-        let sources = Sources::new(&[[60.0, 60.0]], &mask).unwrap();
-        Descent { potential, connected: Grid::from_fn(shape, |_| true), mask, sources }
+        let sources = Sources::new(&[[60.0, 60.0]], medium.mask()).unwrap();
+        Descent::down(potential, &sources, medium)
     }
 
     #[test]
     fn the_tracer_is_of_second_order() {
-        let descent = paraboloid();
+        let medium = uniform(Shape::new([121, 121]).unwrap());
+        let descent = paraboloid(&medium);
         let straying = |step: f64| {
             let options = PathOptions { step, ..PathOptions::default() };
             let (points, ending) = descent.trace([100.0, 90.0], options);
