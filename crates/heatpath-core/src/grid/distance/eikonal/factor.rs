@@ -64,10 +64,25 @@ fn length<const D: usize>(metric: &Matrix<D>, vector: [f64; D]) -> f64 {
 pub(super) struct Upwind {
     /// -1 or 1.
     pub(super) side: isize,
-    pub(super) place: usize,
     pub(super) near: f64,
     /// The distance one step further; both are infinite where they are not known.
     pub(super) next: f64,
+    /// The number of the seed that they count from.
+    pub(super) seed: u32,
+    /// Whether there are neighbours, but of another seed than the one in question.
+    pub(super) is_foreign: bool,
+}
+
+impl Upwind {
+    /// The same, unknown if it is that of another seed.
+    #[inline]
+    pub(super) fn seen_from(self, seed: u32) -> Self {
+        if self.seed == seed {
+            return self;
+        }
+        let is_foreign = self.near < f64::INFINITY;
+        Self { near: f64::INFINITY, next: f64::INFINITY, is_foreign, ..self }
+    }
 }
 
 /// The distance as a product `T = r tau` of the distance r in the constant metric of the source and a
@@ -102,7 +117,7 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         for (direction, upwind) in upwinds.iter().enumerate() {
             if upwind.near < f64::INFINITY {
                 differences.insert(self.difference(direction, upwind, second_order));
-            } else if let Some(difference) = self.beside_the_source(direction, nearest) {
+            } else if let Some(difference) = self.of_r_alone(direction, upwind, nearest) {
                 differences.insert(difference);
             }
         }
@@ -130,7 +145,7 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         }
         let mut missing = false;
         let unknown = |(direction, upwind): &(usize, &Upwind)| {
-            upwind.near == f64::INFINITY && self.beside_the_source(*direction, nearest).is_none()
+            upwind.near == f64::INFINITY && self.of_r_alone(*direction, upwind, nearest).is_none()
         };
         for (direction, _) in upwinds.iter().enumerate().filter(unknown) {
             let [slope, rest] =
@@ -196,17 +211,19 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         Some([apply(&inverse, slopes), apply(&inverse, rests)])
     }
 
-    /// The derivative in a direction from which nothing comes because the source lies less than a
-    /// step away from the cell: that of r alone.
+    /// The derivative of r, in a direction from which no neighbour of this source is known although the
+    /// source lies there: less than a step away, or behind a neighbour that another source is nearer
+    /// to.
     #[inline]
-    fn beside_the_source(&self, direction: usize, near: f64) -> Option<Difference> {
-        let along = self.stencil.along(self.place, direction, &self.covector).abs();
+    fn of_r_alone(&self, direction: usize, upwind: &Upwind, near: f64) -> Option<Difference> {
+        let along = self.stencil.along(self.place, direction, &self.covector);
         let step_sq = self.stencil.length_sq(self.place, direction, &self.seed.metric);
-        let initial = self.seed.initial;
-        (0.0 < along && along < step_sq).then(|| {
-            let slope = along * self.per_r_sq;
+        let is_beside = along != 0.0 && along.abs() < step_sq;
+        let is_behind = upwind.is_foreign && (along > 0.0) == (upwind.side < 0);
+        (is_beside || is_behind).then(|| {
+            let slope = along.abs() * self.per_r_sq;
             let weight = self.stencil.weight(self.place, direction);
-            Difference { weight, slope, rest: slope * initial, near }
+            Difference { weight, slope, rest: slope * self.seed.initial, near }
         })
     }
 
@@ -232,7 +249,7 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
             }
         };
         let growth = away * self.per_r_sq;
-        let (slope, rest) = if second_order && next <= near {
+        let (slope, rest) = if second_order && next < near {
             (1.5 + growth, 2.0 * carried(near, 1.0) - 0.5 * carried(next, 2.0))
         } else {
             (1.0 + growth, carried(near, 1.0))

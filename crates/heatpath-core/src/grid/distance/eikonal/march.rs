@@ -112,28 +112,42 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         }
     }
 
-    /// The distance of a cell from its known neighbours, and the seed that it counts from.
+    /// The distance of a cell from its known neighbours, and the seed that it counts from: the least
+    /// over the seeds that its neighbours count from.
     #[inline]
     fn update(&self, place: usize, index: [usize; D]) -> (f64, u32) {
         let mut upwinds = [Upwind::default(); N];
         for (direction, upwind) in upwinds.iter_mut().enumerate() {
             *upwind = self.upwind(place, direction);
         }
-        let nearest = self.nearest_of(&upwinds);
-        let seed = &self.seeds[nearest as usize];
-        let factor = Factor::new(self.stencil, seed, place, index);
-        let distance = (if self.second_order { factor.solve(&upwinds, true) } else { None })
-            .or_else(|| factor.solve(&upwinds, false))
-            .or_else(|| self.solve_plainly(place, &upwinds))
-            .unwrap_or(f64::INFINITY);
-        (distance, nearest)
+        if self.seeds.len() == 1 {
+            return (self.distance_from(0, place, index, &upwinds), 0);
+        }
+        let mut best = (f64::INFINITY, 0);
+        for upwind in upwinds.iter().filter(|upwind| upwind.near < f64::INFINITY) {
+            let mut own = upwinds;
+            own.iter_mut().for_each(|other| *other = other.seen_from(upwind.seed));
+            let distance = self.distance_from(upwind.seed, place, index, &own);
+            if distance < best.0 {
+                best = (distance, upwind.seed);
+            }
+        }
+        best
     }
 
-    /// The seed that the nearest of a cell's neighbours counts from.
     #[inline]
-    fn nearest_of(&self, upwinds: &[Upwind; N]) -> u32 {
-        let least = upwinds.iter().fold(upwinds[0], |a, &b| if b.near < a.near { b } else { a });
-        self.nearest(least.place)
+    fn distance_from(
+        &self,
+        seed: u32,
+        place: usize,
+        index: [usize; D],
+        upwinds: &[Upwind; N],
+    ) -> f64 {
+        let factor = Factor::new(self.stencil, &self.seeds[seed as usize], place, index);
+        (if self.second_order { factor.solve(upwinds, true) } else { None })
+            .or_else(|| factor.solve(upwinds, false))
+            .or_else(|| self.solve_plainly(place, upwinds))
+            .unwrap_or(f64::INFINITY)
     }
 
     #[inline]
@@ -145,8 +159,10 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         let unknown = (place, f64::INFINITY);
         let (behind, ahead) = (neighbour(-1).unwrap_or(unknown), neighbour(1).unwrap_or(unknown));
         let (side, (place, near)) = if ahead.1 < behind.1 { (1, ahead) } else { (-1, behind) };
-        let next = neighbour(2 * side).map_or(f64::INFINITY, |(_, distance)| distance);
-        Upwind { side, place, near, next }
+        let seed = self.nearest(place);
+        let next = neighbour(2 * side).filter(|&(place, _)| self.nearest(place) == seed);
+        let next = next.map_or(f64::INFINITY, |(_, distance)| distance);
+        Upwind { side, near, next, seed, is_foreign: false }
     }
 
     /// The distance without factor, to first order: there always is one.

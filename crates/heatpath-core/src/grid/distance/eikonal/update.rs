@@ -42,29 +42,51 @@ impl<const N: usize> Differences<N> {
         self.len
     }
 
-    /// The larger root T of the equation over as many of the nearest neighbours as are nearer than
-    /// it; `None` if there is none.
+    /// The T at which the squares of the derivatives add up to 1, over those neighbours that are nearer
+    /// than T and from which it grows; `None` if the nearest alone are more than enough.
     #[inline]
-    pub(super) fn solve(&self) -> Option<f64> {
+    pub(super) fn solve(mut self) -> Option<f64> {
+        let is_enough = |&count: &usize| self.excess(count, self.items[count].near) >= 0.0;
+        let mut count = (1..self.len).find(is_enough).unwrap_or(self.len);
+        let last = self.items[count - 1].near;
+        if self.excess(count, last) >= 0.0 {
+            // Too little without the last neighbour, and too much as soon as it counts.
+            return (last > self.items[0].near).then_some(last);
+        }
+        loop {
+            let distance = self.larger_root(count);
+            let shrinks = |d: &Difference| d.slope * distance.unwrap_or(last) < d.rest;
+            let Some(place) = self.items[..count].iter().position(shrinks) else {
+                return distance;
+            };
+            self.items.copy_within(place + 1..count, place);
+            count -= 1;
+        }
+    }
+
+    /// By how much the squares of the first derivatives exceed 1 at a distance.
+    #[inline]
+    fn excess(&self, count: usize, distance: f64) -> f64 {
+        let squares = self.items[..count].iter().map(|d| {
+            let derivative = (d.slope * distance - d.rest).max(0.0);
+            d.weight * derivative * derivative
+        });
+        squares.sum::<f64>() - 1.0
+    }
+
+    /// The larger root of the equation over the nearest neighbours.
+    #[inline]
+    fn larger_root(&self, count: usize) -> Option<f64> {
         // Counted from the nearest neighbour: the squares of large distances would cancel.
         let origin = self.items[0].near;
         let (mut a, mut b, mut c) = (0.0, 0.0, -1.0);
-        let mut last = origin;
-        for difference in &self.items[..self.len] {
-            let Difference { weight, slope, rest, near } = *difference;
-            let t = near - origin;
-            // At the root the squares add up to 1: if they do so before, it is nearer.
-            if (a * t - 2.0 * b) * t + c >= 0.0 {
-                break;
-            }
+        for &Difference { weight, slope, rest, .. } in &self.items[..count] {
             let rest = rest - slope * origin;
             a += weight * slope * slope;
             b += weight * slope * rest;
             c += weight * rest * rest;
-            last = near;
         }
         let distance = origin + (b + (b * b - a * c).sqrt()) / a;
-        // Not so if there is no root.
-        (distance >= last && distance < f64::INFINITY).then_some(distance)
+        (distance >= origin && distance < f64::INFINITY).then_some(distance)
     }
 }
