@@ -8,7 +8,7 @@ use heatpath_core::grid::distance::{Eikonal, EikonalError, EikonalOptions, NOT_R
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources, TensorField};
 use proptest::prelude::*;
-use support::rough;
+use support::{random, rough};
 
 fn march<const D: usize>(
     medium: &Medium<D>,
@@ -102,12 +102,17 @@ fn bisect<const D: usize>(
             let (t1, t2) = (tau(step(axis, side)), tau(step(axis, 2 * side)));
             let derivative = move |t: f64| {
                 let tau = t / r(here);
-                match difference {
-                    Difference::Plain => t - near,
-                    Difference::Second if next < near - 1e-12 => {
+                // Straight towards the source differences are those of T.
+                let is_factored = difference != Difference::Plain && slope_of_r > -0.5;
+                match (difference, is_factored) {
+                    (Difference::Second, true) if next < near - 1e-12 => {
                         r(here) * (1.5 * tau - 2.0 * t1 + 0.5 * t2) + tau * slope_of_r
                     }
-                    _ => r(here) * (tau - t1) + tau * slope_of_r,
+                    (Difference::Second, false) if next < near - 1e-12 => {
+                        1.5 * t - 2.0 * near + 0.5 * next
+                    }
+                    (_, true) => r(here) * (tau - t1) + tau * slope_of_r,
+                    (_, false) => t - near,
                 }
             };
             near.is_finite().then_some((near, derivative))
@@ -163,4 +168,139 @@ fn marching_agrees_with_its_simplest_version() {
             compare([7, 6, 5], 0.5, seed, order);
         }
     }
+}
+
+fn tensor_medium(shape: Shape<2>, anisotropy: f64, walls: f64, seed: u64) -> (Medium<2>, [f64; 2]) {
+    let mut random = random(seed);
+    let ratio = (1.0 - anisotropy) / (1.0 + anisotropy);
+    let field = TensorField::from_fn(shape, |_| {
+        let (sin, cos) = (3.2 * random()).sin_cos();
+        let xy = (1.0 - ratio) * sin * cos;
+        [[cos * cos + ratio * sin * sin, xy], [xy, sin * sin + ratio * cos * cos]]
+    });
+    let source = [shape.size()[0] / 3, shape.size()[1] / 2];
+    let mask = Mask::new(Grid::from_fn(shape, |index| index == source || random() > walls));
+    let medium = medium::given_tensor(field).unwrap().with_walls(mask).unwrap();
+    (medium, source.map(|i| i as f64))
+}
+
+/// What is reached is what open cells connect with the source.
+fn check_reached<const D: usize>(medium: &Medium<D>, source: [f64; D]) {
+    let field = march(medium, &[source], &EikonalOptions::default());
+    let cell = medium.shape().position(medium.shape().cell_at(source));
+    let connected = medium.mask().reachable_from([cell]);
+    for (cell, &distance) in field.values().iter().enumerate() {
+        let index = medium.shape().index(cell);
+        assert_eq!(distance < NOT_REACHED, connected.values()[cell], "{index:?}: {distance}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn what_is_connected_is_reached(seed in 0_u64..1 << 32, contrast in 0.0..6.0, walls in 0.0..0.6) {
+        let (medium, source) =
+            rough(Shape::new([23, 19]).unwrap(), contrast, Form::Divergence, walls, seed);
+        check_reached(&medium, source);
+        let (medium, source) =
+            rough(Shape::new([9, 8, 7]).unwrap(), contrast, Form::Pointwise, walls, seed);
+        check_reached(&medium, source);
+        let (medium, source) = tensor_medium(Shape::new([23, 19]).unwrap(), 0.95, walls, seed);
+        check_reached(&medium, source);
+    }
+
+    /// Between walls a step to a neighbour costs at most its length, but for the error of the
+    /// differences around corners.
+    #[test]
+    fn neighbours_are_near_each_other(seed in 0_u64..1 << 32) {
+        let shape = Shape::with_spacing([24, 17], [1.0, 1.7]).unwrap();
+        let (medium, source) = rough(shape, 0.0, Form::Pointwise, 0.2, seed);
+        let off = [source[0] + 0.3, source[1] - 0.2];
+        let source = if medium.mask().segment_is_open(source, off) && shape.contains(off) { off } else { source };
+        let field = march(&medium, &[source], &EikonalOptions::default());
+        for cell in (0..shape.cells()).filter(|&cell| field.values()[cell] < NOT_REACHED) {
+            for next in shape.neighbours(cell).filter(|&next| medium.mask().is_open(next)) {
+                let most = shape.physical_distance(shape.centre(cell), shape.centre(next));
+                let step = (field.values()[cell] - field.values()[next]).abs();
+                prop_assert!(step <= 1.02 * most, "{step} of {most}");
+            }
+        }
+    }
+
+    /// Turned pictures and other units of length give turned distances in those units.
+    #[test]
+    fn turns_and_units_change_nothing(seed in 0_u64..1 << 32) {
+        let shape = Shape::with_spacing([21, 16], [1.0, 1.5]).unwrap();
+        let (medium, source) = rough(shape, 1.0, Form::Pointwise, 0.15, seed);
+        let field = march(&medium, &[source], &EikonalOptions::default());
+        let turned_shape = Shape::with_spacing([16, 21], [1.5e3, 1e3]).unwrap();
+        let back = |[x, y]: [usize; 2]| [20 - y, x];
+        let speeds = Grid::from_fn(turned_shape, |index| medium.speed_sq(shape.position(back(index))));
+        let mask = Mask::new(Grid::from_fn(turned_shape, |index| {
+            medium.mask().is_open(shape.position(back(index)))
+        }));
+        let turned = medium::given(speeds, Form::Pointwise).unwrap().with_walls(mask).unwrap();
+        let again = march(&turned, &[[source[1], 20.0 - source[0]]], &EikonalOptions::default());
+        for cell in 0..turned_shape.cells() {
+            let (a, b) = (1e3 * field[back(turned_shape.index(cell))], again.values()[cell]);
+            prop_assert!(a == b || (a - b).abs() < 1e-9 * a, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn walls_are_walked_around() {
+    // A wall from the top down to row 30, and a cell wide: the way leads around its end.
+    let shape = Shape::new([81, 61]).unwrap();
+    let mask = Mask::new(Grid::from_fn(shape, |[x, y]| x != 40 || y > 30));
+    let medium = medium::uniform(shape).with_walls(mask).unwrap();
+    let field = march(&medium, &[[20.0, 10.0]], &EikonalOptions::default());
+    let around = 20_f64.hypot(21.0) + 20_f64.hypot(21.0);
+    let there = field[[60, 10]];
+    assert!((there / around - 1.0).abs() < 0.02, "{there} of {around}");
+    // Two walls that touch at a corner let nothing through, in an anisotropic medium neither.
+    let shape = Shape::new([24, 24]).unwrap();
+    let diagonal = Mask::new(Grid::from_fn(shape, |[x, y]| x != y));
+    let tensor = TensorField::from_fn(shape, |_| [[1.0, -0.95], [-0.95, 1.0]]);
+    for medium in [medium::uniform(shape), medium::given_tensor(tensor).unwrap()] {
+        let medium = medium.with_walls(diagonal.clone()).unwrap();
+        let field = march(&medium, &[[16.0, 4.0]], &EikonalOptions::default());
+        assert!(field[[20, 8]] < NOT_REACHED && field[[4, 16]] == NOT_REACHED);
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_threads() {
+    let (medium, source) = tensor_medium(Shape::new([70, 60]).unwrap(), 0.9, 0.1, 3);
+    let sources = Sources::new(&[source], medium.mask()).unwrap();
+    let fields = [1, 2, 5].map(|threads| {
+        let exec = Exec::new(threads).unwrap();
+        let eikonal = Eikonal::new(&medium, &exec).unwrap();
+        eikonal.distance(&sources, &EikonalOptions::default(), &exec).unwrap().into_field()
+    });
+    assert!(fields[0] == fields[1] && fields[1] == fields[2]);
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let medium = medium::uniform(Shape::new([9, 9]).unwrap());
+    let exec = Exec::single_threaded();
+    let eikonal = Eikonal::new(&medium, &exec).unwrap();
+    let sources = Sources::new(&[[1.0, 1.0], [5.0, 5.0]], medium.mask()).unwrap();
+    let with =
+        |options: EikonalOptions<2>| eikonal.distance(&sources, &options, &exec).unwrap_err();
+    let initial =
+        |initial: &[f64]| EikonalOptions { initial: initial.to_vec(), ..Default::default() };
+    assert_eq!(with(initial(&[0.0])), EikonalError::InitialCount { given: 1, expected: 2 });
+    let error = with(initial(&[0.0, -1.0]));
+    assert_eq!(error, EikonalError::Initial { number: 1, value: -1.0 });
+    assert!(matches!(with(initial(&[f64::NAN, 0.0])), EikonalError::Initial { number: 0, .. }));
+    let target = EikonalOptions { targets: vec![[9.0, 0.0]], ..Default::default() };
+    assert!(matches!(with(target), EikonalError::Target(_)));
+    let cancelled = Exec::single_threaded().with_watch(|_| std::ops::ControlFlow::Break(()));
+    let large = medium::uniform(Shape::new([300, 300]).unwrap());
+    let eikonal = Eikonal::new(&large, &exec).unwrap();
+    let result = eikonal.distance(&sources, &EikonalOptions::default(), &cancelled);
+    assert!(matches!(result, Err(EikonalError::Cancelled(_))));
 }

@@ -71,6 +71,11 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
         false
     }
 
+    #[inline]
+    fn nearest_along_axes(&self, _: usize, _: impl Fn(usize) -> f64) -> Option<(f64, usize)> {
+        None
+    }
+
     fn is_open_at(&self, point: [f64; D]) -> bool {
         let point = point.map(|part| part + MARGIN as f64);
         self.frame.contains(point) && self.is_open(self.frame.position(self.frame.cell_at(point)))

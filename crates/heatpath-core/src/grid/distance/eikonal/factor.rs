@@ -237,8 +237,15 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         let weight = stencil.weight(place, direction);
         let away = -(upwind.side as f64) * stencil.along(place, direction, &self.covector);
         let step_sq = stencil.length_sq(place, direction, &self.seed.metric);
+        // Where T grows towards the source (within 60 degrees), on the way around a wall, tau is not
+        // smooth: T itself is.
+        let is_factored = away > 0.0 || away * away < 0.25 * self.r_sq * step_sq;
+        let growth = if is_factored { away * self.per_r_sq } else { 0.0 };
         // r times the factor tau of the neighbour that many steps back.
         let carried = |distance: f64, steps: f64| {
+            if !is_factored {
+                return distance - initial;
+            }
             // r'^2 = (1 - x) r^2
             let x = (2.0 * steps * away - steps * steps * step_sq) * self.per_r_sq;
             if 1.0 - x > 1e-9 * self.per_r_sq * step_sq {
@@ -248,7 +255,6 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
                 self.r_sq.sqrt()
             }
         };
-        let growth = away * self.per_r_sq;
         let (slope, rest) = if second_order && next < near {
             (1.5 + growth, 2.0 * carried(near, 1.0) - 0.5 * carried(next, 2.0))
         } else {

@@ -34,6 +34,7 @@ struct Term<const D: usize> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Dependent {
     cell: u32,
+    /// `N` if it is a neighbour along an axis.
     term: u8,
     /// Whether the other is ahead of it.
     ahead: bool,
@@ -91,12 +92,16 @@ impl<const D: usize, const N: usize> Lattice<D, N> {
                     }
                 }
             }
+            if self.has_closed_side(cell) {
+                let along_axis = Dependent { cell: cell as u32, term: N as u8, ahead: false };
+                let neighbours = self.shape.neighbours(cell).filter(|&other| self.is_open(other));
+                neighbours.for_each(|other| visit(along_axis, other));
+            }
         }
     }
 }
 
-/// The terms of an open cell: those of its tensor, or if one of these finds no cell on either side,
-/// the axes with the speeds along them.
+/// The terms of an open cell.
 fn terms_of<const D: usize, const N: usize>(
     medium: &Medium<D>,
     walls: bool,
@@ -104,24 +109,15 @@ fn terms_of<const D: usize, const N: usize>(
 ) -> [Term<D>; N] {
     let (shape, tensor) = (medium.shape(), medium.speed_sq_tensor(cell));
     let per_step = shape.spacing().map(|h| shape.smallest_spacing() / h);
-    let scale = |m: Matrix<D>| -> Matrix<D> {
-        std::array::from_fn(|i| std::array::from_fn(|j| m[i][j] * per_step[i] * per_step[j]))
-    };
+    let scaled: Matrix<D> =
+        std::array::from_fn(|i| std::array::from_fn(|j| tensor[i][j] * per_step[i] * per_step[j]));
     let index = shape.index(cell);
     let term = |(offset, weight): ([i32; D], f64)| {
         let offset = offset.map(|part| part as i16);
         Term { weight, offset, open: steps(medium.mask(), walls, index, offset) }
     };
     let mut terms = [Term::NONE; N];
-    terms.iter_mut().zip(selling(&scale(tensor))).for_each(|(place, sum)| *place = term(sum));
-    if terms.iter().all(|term| term.open == [0; 2]) {
-        let metric = inverse(&tensor);
-        let along = std::array::from_fn(|i| {
-            std::array::from_fn(|j| if i == j { 1.0 / metric[i][i] } else { 0.0 })
-        });
-        terms = [Term::NONE; N];
-        terms.iter_mut().zip(selling(&scale(along))).for_each(|(place, sum)| *place = term(sum));
-    }
+    terms.iter_mut().zip(selling(&scaled)).for_each(|(place, sum)| *place = term(sum));
     terms
 }
 
@@ -181,6 +177,32 @@ impl<const D: usize, const N: usize> Stencil<D, N> for Lattice<D, N> {
         self.shape.contains(point) && self.is_open(self.shape.position(self.shape.cell_at(point)))
     }
 
+    fn nearest_along_axes(
+        &self,
+        place: usize,
+        distance: impl Fn(usize) -> f64,
+    ) -> Option<(f64, usize)> {
+        if !self.has_closed_side(place) {
+            return None;
+        }
+        let mut tensor = [[0.0; D]; D];
+        for (direction, term) in self.terms[place].iter().enumerate() {
+            let vector = self.vector(place, direction);
+            (0..D).for_each(|i| {
+                (0..D).for_each(|j| tensor[i][j] += term.weight * vector[i] * vector[j])
+            });
+        }
+        let metric = inverse(&tensor);
+        let index = self.shape.index(place);
+        let neighbours = self.shape.neighbours(place).filter(|&other| self.is_open(other));
+        let along = neighbours.map(|other| {
+            let there = self.shape.index(other);
+            let axis = (0..D).find(|&axis| there[axis] != index[axis]).unwrap_or(0);
+            (distance(other) + metric[axis][axis].sqrt(), other)
+        });
+        along.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     #[inline]
     fn vector(&self, place: usize, direction: usize) -> [f64; D] {
         self.terms[place][direction].offset.map(f64::from)
@@ -206,7 +228,9 @@ impl<const D: usize, const N: usize> Stencil<D, N> for Lattice<D, N> {
         let range = self.starts[place] as usize..self.starts[place + 1] as usize;
         for &Dependent { cell, term, ahead } in &self.dependents[range] {
             let cell = cell as usize;
-            let opposite = self.neighbour(cell, usize::from(term), if ahead { -1 } else { 1 });
+            let side = if ahead { -1 } else { 1 };
+            let opposite =
+                if usize::from(term) < N { self.neighbour(cell, term.into(), side) } else { None };
             visit(cell, self.shape.index(cell), opposite);
         }
     }

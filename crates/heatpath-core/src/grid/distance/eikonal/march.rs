@@ -120,13 +120,26 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         for (direction, upwind) in upwinds.iter_mut().enumerate() {
             *upwind = self.upwind(place, direction);
         }
-        if self.seeds.len() == 1 {
-            return (self.distance_from(0, place, index, &upwinds), 0);
+        let best = if self.seeds.len() == 1 {
+            (self.distance_from(0, place, index, &upwinds), 0)
+        } else {
+            self.least_over_seeds(place, index, &upwinds)
+        };
+        match self.stencil.nearest_along_axes(place, |other| self.distance(other)) {
+            Some((distance, other)) if distance < best.0 => (distance, self.nearest(other)),
+            _ => best,
         }
+    }
+
+    fn least_over_seeds(
+        &self,
+        place: usize,
+        index: [usize; D],
+        upwinds: &[Upwind; N],
+    ) -> (f64, u32) {
         let mut best = (f64::INFINITY, 0);
         for upwind in upwinds.iter().filter(|upwind| upwind.near < f64::INFINITY) {
-            let mut own = upwinds;
-            own.iter_mut().for_each(|other| *other = other.seen_from(upwind.seed));
+            let own = upwinds.map(|other| other.seen_from(upwind.seed));
             let distance = self.distance_from(upwind.seed, place, index, &own);
             if distance < best.0 {
                 best = (distance, upwind.seed);

@@ -116,8 +116,8 @@ pub enum EikonalError {
 ///   way takes no part either. Nothing leaks, and a way around a corner that two walls share does not
 ///   exist.
 /// - *Anisotropic media* use the offsets of their tensors' decompositions ([`Medium`] says what is
-///   the metric and what its inverse). Next to walls and the border, where an offset finds no cell on
-///   either side, the axes take their place.
+///   the metric and what its inverse). Along an offset that leads into a wall or off the grid, the
+///   derivative is that of the gradient which the other offsets imply.
 ///
 /// Memory beside the medium: 24 bytes a cell, or of an anisotropic picture 90 and volume 190, and 4
 /// more with several sources.

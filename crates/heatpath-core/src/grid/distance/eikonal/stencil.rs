@@ -28,6 +28,15 @@ pub(super) trait Stencil<const D: usize, const N: usize> {
     /// those along others.
     fn has_closed_side(&self, place: usize) -> bool;
 
+    /// For a cell with a closed side the least distance by one step from a neighbour along an axis, given
+    /// the neighbours' distances, and that neighbour. So every cell is reached that open cells
+    /// connect with a source, even where all offsets meet walls.
+    fn nearest_along_axes(
+        &self,
+        place: usize,
+        distance: impl Fn(usize) -> f64,
+    ) -> Option<(f64, usize)>;
+
     /// Whether there is an open cell at a point in pixel coordinates.
     fn is_open_at(&self, point: [f64; D]) -> bool;
 

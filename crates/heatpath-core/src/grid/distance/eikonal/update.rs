@@ -46,6 +46,9 @@ impl<const N: usize> Differences<N> {
     /// than T and from which it grows; `None` if the nearest alone are more than enough.
     #[inline]
     pub(super) fn solve(mut self) -> Option<f64> {
+        if self.len == 0 {
+            return None;
+        }
         let is_enough = |&count: &usize| self.excess(count, self.items[count].near) >= 0.0;
         let mut count = (1..self.len).find(is_enough).unwrap_or(self.len);
         let last = self.items[count - 1].near;
