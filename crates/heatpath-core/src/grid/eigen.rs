@@ -51,7 +51,8 @@ fn plane<const D: usize>(m: &Matrix<D>, u: [f64; D], w: [f64; D]) -> ([f64; D], 
     let (mean, difference) = (0.5 * (a + c), 0.5 * (a - c));
     let radius = (difference * difference + b * b).sqrt();
     // Of the two ways to write the direction of the larger value, the one without cancellation.
-    let (x, y) = if difference >= 0.0 { (radius + difference, b) } else { (b, radius - difference) };
+    let (x, y) =
+        if difference >= 0.0 { (radius + difference, b) } else { (b, radius - difference) };
     let length = (x * x + y * y).sqrt();
     let (cos, sin) = if length > 0.0 { (x / length, y / length) } else { (1.0, 0.0) };
     let (mut values, mut vectors) = ([0.0; D], [[0.0; D]; D]);
@@ -226,7 +227,8 @@ mod tests {
     #[test]
     fn sizes_at_the_ends_of_the_range() {
         for size in [1e-300, 1e-160, 1e160, 1e300] {
-            let matrix = with_values([1.0, 2.0, 4.0], [0.2, 0.9, -0.4]).map(|r| r.map(|x| x * size));
+            let matrix =
+                with_values([1.0, 2.0, 4.0], [0.2, 0.9, -0.4]).map(|r| r.map(|x| x * size));
             let (values, _) = eigen(&matrix);
             (0..3).for_each(|i| assert!((values[i] / size - [1.0, 2.0, 4.0][i]).abs() < 1e-14));
         }
