@@ -28,18 +28,23 @@ use super::tensor::apply;
 #[must_use]
 #[inline]
 pub fn eigen<const D: usize>(matrix: &Matrix<D>) -> ([f64; D], [[f64; D]; D]) {
-    let size = matrix.iter().flatten().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+    let mut size = 0.0_f64;
+    for (i, row) in matrix.iter().enumerate() {
+        row[i..].iter().for_each(|entry| size = size.max(entry.abs()));
+    }
     if size == 0.0 {
         return ([0.0; D], identity());
     }
     // Squares and cubes of the entries must not leave the range of floating point.
-    let scaled = matrix.map(|row| row.map(|entry| entry / size));
-    let (values, vectors) = match D {
+    let scaled = std::array::from_fn(|i| std::array::from_fn(|j| matrix[i][j] / size));
+    let (mut values, mut vectors) = match D {
         1 => ([scaled[0][0]; D], identity()),
         2 => plane(&scaled, axis(0), axis(1)),
         _ => space(&scaled),
     };
-    (values.map(|value| size * value), vectors.map(with_sign))
+    values.iter_mut().for_each(|value| *value *= size);
+    vectors.iter_mut().for_each(with_sign);
+    (values, vectors)
 }
 
 /// The eigenvalues and eigenvectors within the plane of `u` and `w`, which are orthonormal, in the
@@ -83,10 +88,14 @@ fn space<const D: usize>(m: &Matrix<D>) -> ([f64; D], [[f64; D]; D]) {
     let (mut values, mut vectors) = plane(&deviator, u, w);
     (values[2], vectors[2]) = (dot(alone, apply(&deviator, alone)), alone);
     if apart < 0.0 {
-        values.rotate_right(1);
-        vectors.rotate_right(1);
+        // To the front.
+        values.swap(1, 2);
+        values.swap(0, 1);
+        vectors.swap(1, 2);
+        vectors.swap(0, 1);
     }
-    (values.map(|value| value + mean), vectors)
+    values.iter_mut().for_each(|value| *value += mean);
+    (values, vectors)
 }
 
 /// Of the roots of `x^3 - 3 x = 2 h` with h from -1 to 1, the one that stands apart: between root 3
@@ -152,11 +161,13 @@ fn identity<const D: usize>() -> Matrix<D> {
     std::array::from_fn(axis)
 }
 
-/// The vector or its opposite, so that its component of largest size is positive.
+/// Turns the vector round unless its component of largest size is positive.
 #[inline]
-fn with_sign<const D: usize>(v: [f64; D]) -> [f64; D] {
-    let largest = v.iter().fold(0.0, |best: f64, &x| if x.abs() > best.abs() { x } else { best });
-    if largest < 0.0 { v.map(|component| -component) } else { v }
+fn with_sign<const D: usize>(vector: &mut [f64; D]) {
+    let larger = |best: f64, &x: &f64| if x.abs() > best.abs() { x } else { best };
+    if vector.iter().fold(0.0, larger) < 0.0 {
+        vector.iter_mut().for_each(|component| *component = -*component);
+    }
 }
 
 #[cfg(test)]

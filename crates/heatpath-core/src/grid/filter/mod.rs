@@ -4,20 +4,29 @@
 //! derivatives are per cell unit, so that filters are round in physical space and do not depend on
 //! the unit of length. Images are mirrored about their borders, `-0.5` and `size - 0.5`.
 
+mod flux;
 mod hessian;
 mod kernel;
+mod measure;
 mod separable;
 mod structure;
+mod vesselness;
 
 pub use hessian::hessian;
-pub use structure::structure_tensor;
+pub use measure::{Measure, Polarity};
+pub use structure::{gaussian_gradient, structure_tensor};
+pub use vesselness::{Tubes, Vesselness, vesselness};
+
+pub(super) use measure::rise;
 
 use super::{Grid, NotFinite};
 use crate::exec::{Cancelled, Exec};
-use crate::simd::SimdLevel;
-use separable::{Derivatives, first_orders, for_each_slab, slab_cells};
+use separable::{Derivatives, for_each_slab, slab_cells};
 use std::ops::Range;
 use thiserror::Error;
+
+/// Derivatives below this part of the image's largest value in size are rounding errors.
+pub(super) const QUIET: f64 = 1e-12;
 
 /// A Gaussian's width is negative, infinite or not a number.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -61,16 +70,8 @@ pub fn gaussian<const D: usize>(
     sigma: f64,
 ) -> Result<Grid<f64, D>, SigmaError> {
     check_sigma(sigma)?;
-    let derivatives = Derivatives::new(*image.shape(), sigma, SimdLevel::best());
-    let mut scratch = derivatives.scratch();
-    let mut smooth = image.clone();
-    let slabs = smooth.values_mut().chunks_mut(slab_cells(image.shape())).enumerate();
-    for (slab, result) in slabs {
-        derivatives.slab(image, slab, &[[0; D]], &mut scratch, |_, first, row| {
-            result[first..first + row.len()].copy_from_slice(row);
-        });
-    }
-    Ok(smooth)
+    let smooth = smooth(image, sigma, 0.0..1.0, &Exec::single_threaded());
+    Ok(smooth.expect("nobody watches, so nobody cancels"))
 }
 
 /// The squared length of the image gradient per cell unit, by central differences.
@@ -80,48 +81,37 @@ pub fn gaussian<const D: usize>(
 /// half of the one-sided difference.
 #[must_use]
 pub fn gradient_sq<const D: usize>(image: &Grid<f64, D>) -> Grid<f64, D> {
-    let derivatives = Derivatives::new(*image.shape(), 0.0, SimdLevel::best());
-    let mut scratch = derivatives.scratch();
-    let mut gradient_sq = image.map(|_| 0.0);
-    let slabs = gradient_sq.values_mut().chunks_mut(slab_cells(image.shape())).enumerate();
-    for (slab, result) in slabs {
-        derivatives.slab(image, slab, &first_orders(), &mut scratch, |_, first, row| {
-            let sums = result[first..].iter_mut().zip(row);
-            sums.for_each(|(sum, difference)| *sum += difference * difference);
-        });
-    }
-    gradient_sq
+    let gradient = structure::gradient(image, 0.0, 0.0..1.0, &Exec::single_threaded());
+    let gradient = gradient.expect("nobody watches, so nobody cancels");
+    gradient.map(|gradient| gradient.iter().map(|g| g * g).sum())
 }
 
 fn check_sigma(sigma: f64) -> Result<(), SigmaError> {
     if sigma.is_finite() && sigma >= 0.0 { Ok(()) } else { Err(SigmaError(sigma)) }
 }
 
-/// The derivative of the given `orders`, 0 to 2, along each axis of an image smoothed by `sigma`.
-///
-/// Progress goes through `share` of the whole.
-fn derivative<const D: usize>(
+/// The image smoothed by `sigma` cell units, in parallel; progress goes through `share` of the whole.
+fn smooth<const D: usize>(
     image: &Grid<f64, D>,
     sigma: f64,
-    orders: [usize; D],
     share: Range<f64>,
     exec: &Exec,
 ) -> Result<Grid<f64, D>, Cancelled> {
     let derivatives = Derivatives::new(*image.shape(), sigma, exec.simd());
-    let mut result = image.map(|_| 0.0);
-    let slabs = result.values_mut().chunks_mut(slab_cells(image.shape()));
+    let mut smooth = image.map(|_| 0.0);
+    let slabs = smooth.values_mut().chunks_mut(slab_cells(image.shape()));
     for_each_slab(
         exec,
         share,
         slabs,
         || derivatives.scratch(),
         |scratch, slab, result| {
-            derivatives.slab(image, slab, &[orders], scratch, |_, first, row| {
+            derivatives.slab(image, slab, &[[0; D]], scratch, |_, first, row| {
                 result[first..first + row.len()].copy_from_slice(row);
             });
         },
     )?;
-    Ok(result)
+    Ok(smooth)
 }
 
 #[cfg(test)]
