@@ -231,8 +231,7 @@ fn bessel_1(x: f64) -> f64 {
 fn flux_of_waves() {
     // On a crest of cos(k x) the flux matrix is -k J1(k r) in a picture and
     // -(sin(k r) - k r cos(k r)) / (k r^2) in a volume, times the Gaussian exp(-k^2 / 2).
-    let period = 16;
-    let k = TAU / period as f64;
+    let k = TAU / 16.0;
     let wave = |i: usize| (k * (i as f64 - 24.0)).cos();
     let plane = Grid::from_fn(Shape::new([48, 6]).unwrap(), |[x, _]| wave(x));
     let space = Grid::from_fn(Shape::new([48, 6, 48]).unwrap(), |[x, _, z]| wave(x) + wave(z));
@@ -365,6 +364,25 @@ fn nothing_is_found_where_nothing_is() {
                 assert!(found.response.values().iter().all(|&v| v == 0.0), "{measure:?} {value}");
             }
         }
+    }
+}
+
+#[test]
+fn one_slice_is_a_picture_without_end() {
+    let plane = picture(Shape::new([40, 30]).unwrap());
+    let slice =
+        Grid::from_values(Shape::new([40, 30, 1]).unwrap(), plane.values().to_vec()).unwrap();
+    let (flat, deep) =
+        (hessian(&plane, 1.5, &exec()).unwrap(), hessian(&slice, 1.5, &exec()).unwrap());
+    for cell in 0..plane.shape().cells() {
+        let (flat, deep) = (flat.at(cell), deep.at(cell));
+        assert!((0..2).all(|i| (0..2).all(|j| (flat[i][j] - deep[i][j]).abs() < 1e-14)));
+        assert!((0..3).all(|i| deep[i][2].abs() < 1e-14));
+    }
+    let cell = Grid::from_values(Shape::new([1, 1]).unwrap(), vec![0.4]).unwrap();
+    for measure in MEASURES {
+        let found = vesselness(&cell, &tubes(measure, &[1.0]), &exec()).unwrap();
+        assert_eq!(found.response[[0, 0]], 0.0);
     }
 }
 

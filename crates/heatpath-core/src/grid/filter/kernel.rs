@@ -208,9 +208,8 @@ mod tests {
 
     #[test]
     fn wide_kernels_are_sampled_derivatives() {
-        let (sigma, x) = (4.0, 3.0);
-        let g = (-0.5 * (x / sigma) * (x / sigma) as f64).exp()
-            / (sigma * std::f64::consts::TAU.sqrt());
+        let (sigma, x) = (4.0_f64, 3.0_f64);
+        let g = (-0.5 * (x / sigma) * (x / sigma)).exp() / (sigma * std::f64::consts::TAU.sqrt());
         let at_3 = |order| Kernel::gaussian(order, sigma, 100).half[3];
         assert!((at_3(0) / g - 1.0).abs() < 1e-3);
         // A kernel stands for a sum with f(x + i), which turns the odd derivative round.

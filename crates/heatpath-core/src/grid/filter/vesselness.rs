@@ -10,11 +10,22 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// Which tubes [`vesselness`] looks for, and how.
+///
+/// The default measure and scales are those that did well, on the whole, at the vessels of the retina:
+/// 8 pictures of CHASE_DB1 and 4 of STARE, green channel, against the first observer's mask in the
+/// field of view. Area under the ROC curve and best F1, in per cent; the flux had radii 3, 4.5 and
+/// 6.8. On 10 other pictures Sato's area is the largest again.
+///
+/// | | CHASE_DB1 | STARE |
+/// | --- | --- | --- |
+/// | Sato | 92.0, 66.9 | 93.5, 62.9 |
+/// | Frangi | 91.1, 67.0 | 93.1, 63.4 |
+/// | flux | 89.7, 60.7 | 92.8, 60.4 |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tubes {
-    /// What is computed at each scale.
+    /// What is computed at each scale; default [`Measure::Sato`].
     pub measure: Measure,
-    /// Brighter or darker than what is around them.
+    /// Brighter or darker than what is around them; default [`Polarity::Bright`].
     pub polarity: Polarity,
     /// The scales of which the strongest counts, in cell units: standard deviations of the Gaussian
     /// for the Hessian, radii for the flux. Positive, none above the longest side of the image.
@@ -24,7 +35,7 @@ pub struct Tubes {
     /// 2, 3 and 4.5.
     pub scales: Vec<f64>,
     /// What counts as a strong tube: the c of Frangi's measure, for the others the strength whose
-    /// response is 1. Positive; `None` takes half the largest norm of a Hessian over all cells and
+    /// response is 1. Positive; `None`, the default, takes half the largest norm of a Hessian over all cells and
     /// scales for c, as Frangi et al. do, and the largest strength for the others, so that the
     /// response does not depend on the contrast of the image.
     ///
@@ -129,14 +140,9 @@ impl<const D: usize> Search<'_, D> {
         let mut largest = vec![0.0; self.image.shape().size()[D - 1]];
         for (scale, share) in self.scales(share) {
             let layer = self.layer(scale, share.clone())?;
-            layer.visit(
-                share,
-                largest.iter_mut(),
-                self.exec,
-                |largest: &mut &mut f64, _, matrix| {
-                    **largest = largest.max(norm(matrix));
-                },
-            )?;
+            layer.visit(largest.iter_mut(), self.exec, |largest: &mut &mut f64, _, matrix| {
+                **largest = largest.max(norm(matrix));
+            })?;
         }
         Ok(largest.into_iter().fold(0.0, f64::max))
     }
@@ -150,26 +156,21 @@ impl<const D: usize> Search<'_, D> {
             direction: self.image.map(|_| [0.0; D]),
         };
         for (scale, share) in self.scales(share) {
-            let layer = self.layer(scale, share.clone())?;
+            let layer = self.layer(scale, share)?;
             let responses = best.response.values_mut().chunks_mut(slab_cells(shape));
             let scales = best.scale.values_mut().chunks_mut(slab_cells(shape));
             let directions = best.direction.values_mut().chunks_mut(slab_cells(shape));
             let parts = responses.zip(scales).zip(directions);
-            layer.visit(
-                share,
-                parts,
-                self.exec,
-                |((responses, scales), directions), cell, matrix| {
-                    if norm(matrix) <= self.quiet {
-                        return;
-                    }
-                    let (response, direction) = self.strength(matrix, contrast);
-                    if response > responses[cell] {
-                        (responses[cell], scales[cell]) = (response, scale);
-                        directions[cell] = direction;
-                    }
-                },
-            )?;
+            layer.visit(parts, self.exec, |((responses, scales), directions), cell, matrix| {
+                if norm(matrix) <= self.quiet {
+                    return;
+                }
+                let (response, direction) = self.strength(matrix, contrast);
+                if response > responses[cell] {
+                    (responses[cell], scales[cell]) = (response, scale);
+                    directions[cell] = direction;
+                }
+            })?;
         }
         self.exec.report(1.0)?;
         Ok(best)
@@ -184,8 +185,10 @@ impl<const D: usize> Search<'_, D> {
         match self.tubes.polarity {
             Polarity::Bright => bright(),
             Polarity::Dark => dark(),
-            Polarity::Both if bright().0 >= dark().0 => bright(),
-            Polarity::Both => dark(),
+            Polarity::Both => {
+                let (bright, dark) = (bright(), dark());
+                if bright.0 >= dark.0 { bright } else { dark }
+            }
         }
     }
 
@@ -207,14 +210,16 @@ impl<const D: usize> Search<'_, D> {
                 image: Cow::Borrowed(self.image),
                 derivatives,
                 factor: scale * scale,
+                share,
             });
         }
-        let image = ball_over_sphere(self.image, scale, share, self.exec)?;
+        let half = 0.5 * (share.start + share.end);
+        let image = ball_over_sphere(self.image, scale, share.start..half, self.exec)?;
         // The hat which has blurred the ball already is part of the Gaussian of one cell.
         let blur = |spacing: f64| HAT_VARIANCE * (spacing / shape.smallest_spacing()).powi(2);
         let sigmas = shape.spacing().map(|spacing| (1.0 - blur(spacing)).max(0.0).sqrt());
         let derivatives = Derivatives::with_sigmas(shape, sigmas, simd);
-        Ok(Layer { image: Cow::Owned(image), derivatives, factor: 1.0 })
+        Ok(Layer { image: Cow::Owned(image), derivatives, factor: 1.0, share: half..share.end })
     }
 }
 
@@ -223,6 +228,8 @@ struct Layer<'a, const D: usize> {
     image: Cow<'a, Grid<f64, D>>,
     derivatives: Derivatives<D>,
     factor: f64,
+    /// The part of the whole that going through it once is.
+    share: Range<f64>,
 }
 
 impl<const D: usize> Layer<'_, D> {
@@ -230,19 +237,24 @@ impl<const D: usize> Layer<'_, D> {
     /// `parts` belongs to.
     fn visit<T: Send>(
         &self,
-        share: Range<f64>,
         parts: impl Iterator<Item = T>,
         exec: &Exec,
         visit: impl Fn(&mut T, usize, &Matrix<D>) + Sync + Send,
     ) -> Result<(), Cancelled> {
         let cells = slab_cells(self.image.shape());
         let scratch = || (self.derivatives.scratch(), vec![[[0.0; D]; D]; cells]);
-        for_each_slab(exec, share, parts, scratch, |(scratch, matrices), slab, part| {
-            self.matrices(slab, scratch, matrices);
-            for (cell, matrix) in matrices.iter().enumerate() {
-                visit(part, cell, matrix);
-            }
-        })
+        for_each_slab(
+            exec,
+            self.share.clone(),
+            parts,
+            scratch,
+            |(scratch, matrices), slab, part| {
+                self.matrices(slab, scratch, matrices);
+                for (cell, matrix) in matrices.iter().enumerate() {
+                    visit(part, cell, matrix);
+                }
+            },
+        )
     }
 
     /// The second derivatives of one slab.
