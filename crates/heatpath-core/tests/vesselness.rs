@@ -431,8 +431,8 @@ fn parameters_out_of_range_are_named() {
     let image = picture(Shape::new([20, 10]).unwrap());
     let refused = |tubes: Tubes| vesselness(&image, &tubes, &exec()).unwrap_err().to_string();
     let with_scales = |scales: &[f64]| refused(tubes(Measure::Sato, scales));
-    let range = "it must be positive and at most the longest side of the image in cells";
-    for (scale, written) in [(0.0, "0"), (-2.0, "-2"), (20.5, "20.5"), (f64::NAN, "NaN")] {
+    let range = "it must be positive and at most 100 cells";
+    for (scale, written) in [(0.0, "0"), (-2.0, "-2"), (100.5, "100.5"), (f64::NAN, "NaN")] {
         assert_eq!(with_scales(&[1.0, scale]), format!("scale is {written}; {range}"));
     }
     assert_eq!(with_scales(&[]), "number of scales is 0; it must be at least 1");

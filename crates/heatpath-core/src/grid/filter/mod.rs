@@ -15,7 +15,7 @@ mod vesselness;
 pub use hessian::hessian;
 pub use measure::{Measure, Polarity};
 pub use structure::{gaussian_gradient, structure_tensor};
-pub use vesselness::{Tubes, Vesselness, vesselness};
+pub use vesselness::{LARGEST_SCALE, Tubes, Vesselness, vesselness};
 
 pub(super) use measure::rise;
 

@@ -5,18 +5,21 @@ use super::measure::{Measure, Polarity};
 use super::separable::{Derivatives, Scratch, for_each_slab, second_orders, slab_cells};
 use super::{FilterError, QUIET};
 use crate::exec::{Cancelled, Exec};
-use crate::grid::{Grid, Matrix, Shape, eigen};
+use crate::grid::{Grid, Matrix, eigen};
 use std::borrow::Cow;
 use std::ops::Range;
+
+/// The largest scale of [`Tubes`], in cells: wider ones are found sooner in a smaller image.
+pub const LARGEST_SCALE: f64 = 100.0;
 
 /// Which tubes [`vesselness`] looks for, and how.
 ///
 /// The default measure and scales are those that did well, on the whole, at the vessels of the retina:
-/// 8 pictures of CHASE_DB1 and 4 of STARE, green channel, against the first observer's mask in the
+/// 8 pictures of `CHASE_DB1` and 4 of STARE, green channel, against the first observer's mask in the
 /// field of view. Area under the ROC curve and best F1, in per cent; the flux had radii 3, 4.5 and
 /// 6.8. On 10 other pictures Sato's area is the largest again.
 ///
-/// | | CHASE_DB1 | STARE |
+/// | | `CHASE_DB1` | STARE |
 /// | --- | --- | --- |
 /// | Sato | 92.0, 66.9 | 93.5, 62.9 |
 /// | Frangi | 91.1, 67.0 | 93.1, 63.4 |
@@ -28,7 +31,8 @@ pub struct Tubes {
     /// Brighter or darker than what is around them; default [`Polarity::Bright`].
     pub polarity: Polarity,
     /// The scales of which the strongest counts, in cell units: standard deviations of the Gaussian
-    /// for the Hessian, radii for the flux. Positive, none above the longest side of the image.
+    /// for the Hessian, radii for the flux. Positive, none above
+    /// [`LARGEST_SCALE`].
     ///
     /// A ribbon of half width r, in a picture, is strongest at `sigma = r`, a cylinder of radius r,
     /// in a volume, at `sigma = r / sqrt(2)`, and both at a flux of radius r to `r + 1`. Default
@@ -80,7 +84,7 @@ pub fn vesselness<const D: usize>(
     exec: &Exec,
 ) -> Result<Vesselness<D>, FilterError> {
     image.check_finite()?;
-    tubes.check(image.shape())?;
+    tubes.check()?;
     let search = Search { image, tubes, quiet: QUIET * image.largest_size(), exec };
     let frangi = matches!(tubes.measure, Measure::Frangi { .. });
     let (contrast, rest) = match tubes.contrast {
@@ -99,7 +103,7 @@ pub fn vesselness<const D: usize>(
 }
 
 impl Tubes {
-    fn check<const D: usize>(&self, shape: &Shape<D>) -> Result<(), FilterError> {
+    fn check(&self) -> Result<(), FilterError> {
         let mut positive: Vec<(&'static str, f64)> =
             self.contrast.map(|c| ("contrast", c)).into_iter().collect();
         if let Measure::Frangi { alpha, beta } = self.measure {
@@ -109,12 +113,8 @@ impl Tubes {
         if let Some(&(name, value)) = positive.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
             return Err(FilterError::Parameter { name, value, range });
         }
-        let side = |axis| shape.size()[axis] as f64 * shape.spacing()[axis];
-        let longest = (0..D).map(side).fold(0.0, f64::max) / shape.smallest_spacing();
-        let range = "positive and at most the longest side of the image in cells";
-        if let Some(&value) =
-            self.scales.iter().find(|scale| !(**scale > 0.0 && **scale <= longest))
-        {
+        let range = "positive and at most 100 cells";
+        if let Some(&value) = self.scales.iter().find(|s| !(**s > 0.0 && **s <= LARGEST_SCALE)) {
             return Err(FilterError::Parameter { name: "scale", value, range });
         }
         if self.scales.is_empty() {
@@ -139,7 +139,7 @@ impl<const D: usize> Search<'_, D> {
     fn largest_norm(&self, share: Range<f64>) -> Result<f64, Cancelled> {
         let mut largest = vec![0.0; self.image.shape().size()[D - 1]];
         for (scale, share) in self.scales(share) {
-            let layer = self.layer(scale, share.clone())?;
+            let layer = self.layer(scale, share)?;
             layer.visit(largest.iter_mut(), self.exec, |largest: &mut &mut f64, _, matrix| {
                 **largest = largest.max(norm(matrix));
             })?;

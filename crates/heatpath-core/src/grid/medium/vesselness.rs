@@ -34,7 +34,7 @@ impl Default for VesselnessOptions {
 /// of the tube. Lengths are `ds / sqrt(k)` and `sqrt(dx' (k D)^-1 dx)`.
 ///
 /// The default power and floor, with the default tubes, were chosen by minimal paths along an
-/// observer's vessels of the retina (12 pictures of CHASE_DB1 and STARE, ends 100 and 350 cells apart,
+/// observer's vessels of the retina (12 pictures of `CHASE_DB1` and STARE, ends 100 and 350 cells apart,
 /// recall and precision within 2 cells): their F1 is 0.83 and 0.59, and 0.01 to 0.03 less with a floor
 /// of 1e-3 or a power of 3. A floor of 1e-5 gains 0.01 to 0.02, but heat is ten times slower then
 /// where there is no tube. Frangi's measure, whose response is about the square of Sato's, wants a
