@@ -104,6 +104,11 @@ impl<T, const D: usize> Grid<T, D> {
 }
 
 impl<const D: usize> Grid<f64, D> {
+    /// The largest absolute value.
+    pub(crate) fn largest_size(&self) -> f64 {
+        self.values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    }
+
     /// Checks that every value is a finite number.
     ///
     /// # Errors

@@ -6,6 +6,7 @@
 
 pub mod bridge;
 pub mod distance;
+mod eigen;
 mod field;
 pub mod filter;
 pub mod heat;
@@ -19,6 +20,7 @@ mod source;
 mod stencil;
 mod tensor;
 
+pub use eigen::eigen;
 pub use field::{Grid, LengthError, NotFinite, fraction};
 pub use mask::Mask;
 pub use shape::{Shape, ShapeError};

@@ -41,6 +41,12 @@ impl<const D: usize> TensorField<D> {
         }
     }
 
+    /// A field of as many `components` as it has.
+    pub(crate) fn from_parts(shape: Shape<D>, components: Vec<f64>) -> Self {
+        debug_assert_eq!(shape.cells() * Self::COMPONENTS, components.len());
+        Self { shape, components }
+    }
+
     /// A field whose cell at index `i` holds `matrix(i)`, of which the part on and above the
     /// diagonal counts.
     pub fn from_fn(shape: Shape<D>, mut matrix: impl FnMut([usize; D]) -> Matrix<D>) -> Self {

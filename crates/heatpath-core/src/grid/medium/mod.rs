@@ -9,18 +9,23 @@ mod conductivity;
 mod edges;
 mod given;
 mod perona_malik;
+mod tensor;
 mod uniform;
+mod vesselness;
 
 pub use combined::combined;
 pub use conductivity::{ConductivityOptions, conductivity};
 pub use edges::{EdgesOptions, edges};
 pub use given::{GIVEN_RANGE, given, given_tensor};
 pub use perona_malik::{EdgeStop, PeronaMalikOptions, SMALLEST_DIFFUSION, perona_malik};
+pub use tensor::{Directions, MOST_ANISOTROPY, TensorOptions, tensor};
 pub use uniform::uniform;
+pub use vesselness::{VesselnessOptions, vesselness};
 
-use super::filter::SigmaError;
+use super::filter::{FilterError, SigmaError};
 use super::tensor::determinant;
 use super::{Grid, Mask, Matrix, NotFinite, Shape, TensorField};
+use crate::exec::Cancelled;
 use std::borrow::Cow;
 use thiserror::Error;
 
@@ -130,6 +135,20 @@ pub enum MediumError {
         /// The image's cells along each axis.
         image: Vec<usize>,
     },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl From<FilterError> for MediumError {
+    fn from(error: FilterError) -> Self {
+        match error {
+            FilterError::NotFinite(error) => error.into(),
+            FilterError::Sigma(error) => error.into(),
+            FilterError::Parameter { name, value, range } => Self::Parameter { name, value, range },
+            FilterError::Cancelled(error) => error.into(),
+        }
+    }
 }
 
 impl<const D: usize> Medium<D> {

@@ -1,15 +1,61 @@
-//! Gaussian smoothing and image gradients.
+//! Gaussian smoothing, derivatives and what they tell about directions and tubes.
+//!
+//! All widths are standard deviations in cell units, multiples of the smallest spacing, and all
+//! derivatives are per cell unit, so that filters are round in physical space and do not depend on
+//! the unit of length. Images are mirrored about their borders, `-0.5` and `size - 0.5`.
 
-use super::{Grid, Shape};
+mod flux;
+mod hessian;
+mod kernel;
+mod measure;
+mod separable;
+mod structure;
+mod vesselness;
+
+pub use hessian::hessian;
+pub use measure::{Measure, Polarity};
+pub use structure::{gaussian_gradient, structure_tensor};
+pub use vesselness::{LARGEST_SCALE, Tubes, Vesselness, vesselness};
+
+pub(super) use measure::rise;
+
+use super::{Grid, NotFinite};
+use crate::exec::{Cancelled, Exec};
+use separable::{Derivatives, for_each_slab, slab_cells};
+use std::ops::Range;
 use thiserror::Error;
+
+/// Derivatives below this part of the image's largest value in size are rounding errors.
+pub(super) const QUIET: f64 = 1e-12;
 
 /// A Gaussian's width is negative, infinite or not a number.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("smoothing sigma is {0}; it must be zero or a positive finite number of cells")]
 pub struct SigmaError(pub f64);
 
-/// Where the truncated Gaussian ends, in standard deviations: `exp(-8)` of the peak is left there.
-const TRUNCATE: f64 = 4.0;
+/// Why there is no filtered image.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FilterError {
+    /// A value of the image is infinite or not a number.
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
+    /// A Gaussian's width makes no sense.
+    #[error(transparent)]
+    Sigma(#[from] SigmaError),
+    /// A parameter is outside its range.
+    #[error("{name} is {value}; it must be {range}")]
+    Parameter {
+        /// The parameter's name.
+        name: &'static str,
+        /// The rejected value.
+        value: f64,
+        /// What would be right.
+        range: &'static str,
+    },
+    /// The caller asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
 
 /// Smooths with a Gaussian of standard deviation `sigma`, given in cell units (multiples of the
 /// smallest spacing), so that the blur is round in physical space.
@@ -23,53 +69,9 @@ pub fn gaussian<const D: usize>(
     image: &Grid<f64, D>,
     sigma: f64,
 ) -> Result<Grid<f64, D>, SigmaError> {
-    if !(sigma.is_finite() && sigma >= 0.0) {
-        return Err(SigmaError(sigma));
-    }
-    let shape = *image.shape();
-    let mut result = image.clone();
-    for axis in 0..D {
-        let cells = sigma * shape.smallest_spacing() / shape.spacing()[axis];
-        let kernel = half_gaussian(cells, shape.size()[axis]);
-        if kernel.len() > 1 {
-            result = convolve(&result, axis, &kernel);
-        }
-    }
-    Ok(result)
-}
-
-/// The weights of a normalised Gaussian at offsets 0, 1, 2, ...
-fn half_gaussian(sigma: f64, longest: usize) -> Vec<f64> {
-    // Mirrored images repeat after two lengths, so a wider kernel would add nothing new.
-    let radius = ((TRUNCATE * sigma).ceil() as usize).min(2 * longest);
-    let mut half: Vec<f64> = (0..=radius)
-        .map(|i| if i == 0 { 1.0 } else { (-0.5 * (i as f64 / sigma).powi(2)).exp() })
-        .collect();
-    let total = half[0] + 2.0 * half[1..].iter().sum::<f64>();
-    half.iter_mut().for_each(|weight| *weight /= total);
-    half
-}
-
-/// Convolves along one axis with a symmetric kernel given by its non-negative offsets.
-fn convolve<const D: usize>(image: &Grid<f64, D>, axis: usize, half: &[f64]) -> Grid<f64, D> {
-    let shape = image.shape();
-    let (n, stride) = (shape.size()[axis] as isize, shape.stride(axis) as isize);
-    let values = image.values();
-    Grid::from_fn(*shape, |index| {
-        let base = shape.position(index) as isize - index[axis] as isize * stride;
-        let at = |i: isize| values[(base + mirror(i, n) * stride) as usize];
-        let centre = index[axis] as isize;
-        let pairs = half.iter().enumerate().skip(1);
-        pairs.fold(half[0] * at(centre), |sum, (offset, weight)| {
-            sum + weight * (at(centre - offset as isize) + at(centre + offset as isize))
-        })
-    })
-}
-
-/// The index that a mirror at the borders -0.5 and n - 0.5 shows in place of `i`.
-fn mirror(i: isize, n: isize) -> isize {
-    let folded = i.rem_euclid(2 * n);
-    if folded < n { folded } else { 2 * n - 1 - folded }
+    check_sigma(sigma)?;
+    let smooth = smooth(image, sigma, 0.0..1.0, &Exec::single_threaded());
+    Ok(smooth.expect("nobody watches, so nobody cancels"))
 }
 
 /// The squared length of the image gradient per cell unit, by central differences.
@@ -79,25 +81,43 @@ fn mirror(i: isize, n: isize) -> isize {
 /// half of the one-sided difference.
 #[must_use]
 pub fn gradient_sq<const D: usize>(image: &Grid<f64, D>) -> Grid<f64, D> {
-    let shape: &Shape<D> = image.shape();
-    let scale = shape.spacing().map(|h| 0.5 * shape.smallest_spacing() / h);
-    Grid::from_fn(*shape, |index| {
-        let centre = shape.position(index);
-        (0..D)
-            .map(|axis| {
-                let stride = shape.stride(axis);
-                let lower = if index[axis] > 0 { centre - stride } else { centre };
-                let upper =
-                    if index[axis] + 1 < shape.size()[axis] { centre + stride } else { centre };
-                (scale[axis] * (image.values()[upper] - image.values()[lower])).powi(2)
-            })
-            .sum()
-    })
+    let gradient = structure::gradient(image, 0.0, 0.0..1.0, &Exec::single_threaded());
+    let gradient = gradient.expect("nobody watches, so nobody cancels");
+    gradient.map(|gradient| gradient.iter().map(|g| g * g).sum())
+}
+
+fn check_sigma(sigma: f64) -> Result<(), SigmaError> {
+    if sigma.is_finite() && sigma >= 0.0 { Ok(()) } else { Err(SigmaError(sigma)) }
+}
+
+/// The image smoothed by `sigma` cell units, in parallel; progress goes through `share` of the whole.
+fn smooth<const D: usize>(
+    image: &Grid<f64, D>,
+    sigma: f64,
+    share: Range<f64>,
+    exec: &Exec,
+) -> Result<Grid<f64, D>, Cancelled> {
+    let derivatives = Derivatives::new(*image.shape(), sigma, exec.simd());
+    let mut smooth = image.map(|_| 0.0);
+    let slabs = smooth.values_mut().chunks_mut(slab_cells(image.shape()));
+    for_each_slab(
+        exec,
+        share,
+        slabs,
+        || derivatives.scratch(),
+        |scratch, slab, result| {
+            derivatives.slab(image, slab, &[[0; D]], scratch, |_, first, row| {
+                result[first..first + row.len()].copy_from_slice(row);
+            });
+        },
+    )?;
+    Ok(smooth)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::Shape;
 
     #[test]
     fn smoothing_keeps_constants_and_the_mean() {

@@ -1,0 +1,43 @@
+//! Second derivatives.
+
+use super::separable::{Derivatives, for_each_slab, second_orders, slab_cells};
+use super::{FilterError, check_sigma};
+use crate::exec::Exec;
+use crate::grid::{Grid, TensorField};
+
+/// The matrix of second derivatives, per cell unit squared, of an image smoothed by a Gaussian of
+/// standard deviation `sigma` cell units.
+///
+/// The derivatives are taken of the Gaussian, whose sampled kernels are corrected so that inside
+/// the image the Hessian of every polynomial of degree 3 is that of the smoothed polynomial; with a
+/// `sigma` of 0 they are differences of neighbours. Times `sigma^2` the values can be compared between
+/// scales (Lindeberg 1998).
+///
+/// # Errors
+/// A value or `sigma` that makes no sense, or the caller cancelled.
+pub fn hessian<const D: usize>(
+    image: &Grid<f64, D>,
+    sigma: f64,
+    exec: &Exec,
+) -> Result<TensorField<D>, FilterError> {
+    image.check_finite()?;
+    check_sigma(sigma)?;
+    let shape = *image.shape();
+    let derivatives = Derivatives::new(shape, sigma, exec.simd());
+    let components = TensorField::<D>::COMPONENTS;
+    let mut values = vec![0.0; shape.cells() * components];
+    let slabs = values.chunks_mut(slab_cells(&shape) * components);
+    for_each_slab(
+        exec,
+        0.0..1.0,
+        slabs,
+        || derivatives.scratch(),
+        |scratch, slab, result| {
+            derivatives.slab(image, slab, &second_orders(), scratch, |component, first, row| {
+                let places = result[first * components + component..].iter_mut();
+                places.step_by(components).zip(row).for_each(|(place, value)| *place = *value);
+            });
+        },
+    )?;
+    Ok(TensorField::from_parts(shape, values))
+}
