@@ -4,6 +4,7 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use heatpath_core::Exec;
+use heatpath_core::grid::distance::normalized;
 use heatpath_core::grid::heat::{Implicit, ImplicitOptions};
 use heatpath_core::grid::medium::{self, Medium};
 use heatpath_core::grid::{Grid, Shape, Sources};
@@ -42,6 +43,10 @@ fn grid<const D: usize>(criterion: &mut Criterion, name: &str, size: [usize; D])
         let implicit = prepare();
         group.bench_function(id("1 source"), |bencher| {
             bencher.iter(|| black_box(implicit.flow(&sources[0], &exec).unwrap()));
+        });
+        let heat = implicit.flow(&sources[0], &exec).unwrap();
+        group.bench_function(id("distances"), |bencher| {
+            bencher.iter(|| black_box(normalized(&heat)));
         });
         if size == [512; D] {
             group.bench_function(id("100 sources"), |bencher| {

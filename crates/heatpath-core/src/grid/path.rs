@@ -6,7 +6,7 @@
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
-use super::distance::matern::Matern;
+use super::distance::matern::{Inverse, Matern, lowest};
 use super::distance::{DistanceMap, NOT_REACHED};
 use super::heat::{Heat, NoExposure, Scheme};
 use super::sample::corners;
@@ -300,13 +300,13 @@ fn implicit_potential<const D: usize>(heat: &Heat<D>, exposure: &Grid<f64, D>) -
     let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // Where heat is trapped around its source, there would be no such distance.
     let strength = heat.ln_reference().max(highest - matern.ln(1e-4).0);
-    let mut last = 1.0;
+    let inverse = Inverse::new(matern, lowest(exposure) - strength);
     exposure.map(|&ln_exposure| {
         if ln_exposure == f64::NEG_INFINITY {
-            return f64::INFINITY;
+            f64::INFINITY
+        } else {
+            inverse.distance(ln_exposure - strength).powi(2)
         }
-        last = matern.distance(ln_exposure - strength, last);
-        last * last
     })
 }
 
