@@ -1,9 +1,11 @@
 //! Distances from the sources.
 
+mod heat_method;
 pub(super) mod matern;
 mod matrix;
 mod varadhan;
 
+pub use heat_method::{HeatMethod, HeatMethodError, HeatMethodOptions};
 pub use matrix::distance_matrix;
 pub use varadhan::{normalized, normalized_each, varadhan};
 

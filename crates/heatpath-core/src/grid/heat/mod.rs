@@ -12,6 +12,7 @@ mod implicit;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
+pub(crate) use implicit::Elimination;
 pub use implicit::{Implicit, ImplicitError, ImplicitOptions};
 pub use operator::FaceMean;
 
