@@ -1,9 +1,10 @@
-//! Implicit heat: preparing a medium, and the heat of one source and of a hundred.
+//! Implicit heat and the heat method: preparing a medium, and one source and many.
 #![allow(missing_docs, reason = "criterion's macros make functions without documentation")]
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on should stop")]
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use heatpath_core::Exec;
+use heatpath_core::grid::distance::{HeatMethod, HeatMethodOptions, normalized};
 use heatpath_core::grid::heat::{Implicit, ImplicitOptions};
 use heatpath_core::grid::medium::{self, Medium};
 use heatpath_core::grid::{Grid, Shape, Sources};
@@ -43,9 +44,24 @@ fn grid<const D: usize>(criterion: &mut Criterion, name: &str, size: [usize; D])
         group.bench_function(id("1 source"), |bencher| {
             bencher.iter(|| black_box(implicit.flow(&sources[0], &exec).unwrap()));
         });
+        let heat = implicit.flow(&sources[0], &exec).unwrap();
+        group.bench_function(id("distances"), |bencher| {
+            bencher.iter(|| black_box(normalized(&heat)));
+        });
         if size == [512; D] {
             group.bench_function(id("100 sources"), |bencher| {
                 bencher.iter(|| black_box(implicit.flow_many(&sources, &exec).unwrap()));
+            });
+            let id =
+                |what: &str| BenchmarkId::new(format!("heat method, {what}, {threads}"), size[0]);
+            let prepare = || HeatMethod::new(&medium, HeatMethodOptions::default(), &exec).unwrap();
+            group.bench_function(id("prepare"), |bencher| bencher.iter(|| black_box(prepare())));
+            let method = prepare();
+            group.bench_function(id("1 source"), |bencher| {
+                bencher.iter(|| black_box(method.distance(&sources[0], &exec).unwrap()));
+            });
+            group.bench_function(id("8 sources"), |bencher| {
+                bencher.iter(|| black_box(method.distances(&sources[..8], &exec).unwrap()));
             });
         }
     }

@@ -6,7 +6,7 @@ use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
 use heatpath_core::grid::distance::{DistanceMap, normalized, varadhan};
 use heatpath_core::grid::heat::{
-    Duration, Explicit, FaceMean, Heat, HeatOptions, Implicit, ImplicitOptions, Step,
+    Duration, Explicit, FaceMean, Heat, HeatOptions, HeatSolver, Implicit, ImplicitOptions, Step,
 };
 use heatpath_core::grid::medium::Medium;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -56,13 +56,10 @@ impl Plan {
         match self.solver {
             Solver::Explicit(options) => {
                 let explicit = Explicit::new(medium, HeatOptions { exposure, ..options })?;
-                let flow = if balanced { Explicit::flow_balanced } else { Explicit::flow };
-                Ok(flow(&explicit, sources, exec)?)
+                Ok(explicit.flow_from(sources, balanced, exec)?)
             }
             Solver::Implicit(options) => {
-                let implicit = Implicit::new(medium, options, exec)?;
-                let flow = if balanced { Implicit::flow_balanced } else { Implicit::flow };
-                Ok(flow(&implicit, sources, exec)?)
+                Ok(Implicit::new(medium, options, exec)?.flow_from(sources, balanced, exec)?)
             }
         }
     }

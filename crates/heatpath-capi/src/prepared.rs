@@ -5,7 +5,7 @@ use crate::status::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
 use heatpath_core::grid::distance::{DistanceMap, normalized, normalized_each, varadhan};
-use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions, Implicit};
+use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions, HeatSolver, Implicit};
 use heatpath_core::grid::medium::Medium;
 
 /// A medium in which heat can flow.
@@ -55,13 +55,9 @@ impl<const D: usize> Prepared<D> {
         match self {
             Self::Explicit(medium, options) => {
                 let explicit = Explicit::new(medium, HeatOptions { exposure, ..*options })?;
-                let flow = if balanced { Explicit::flow_balanced } else { Explicit::flow };
-                Ok(flow(&explicit, sources, exec)?)
+                Ok(explicit.flow_from(sources, balanced, exec)?)
             }
-            Self::Implicit(implicit) => {
-                let flow = if balanced { Implicit::flow_balanced } else { Implicit::flow };
-                Ok(flow(implicit, sources, exec)?)
-            }
+            Self::Implicit(implicit) => Ok(implicit.flow_from(sources, balanced, exec)?),
         }
     }
 

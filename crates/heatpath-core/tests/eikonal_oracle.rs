@@ -63,7 +63,13 @@ fn root<const D: usize>(
     cell: usize,
     order: Order,
 ) -> f64 {
-    let with = |difference| bisect(medium, source, known, cell, difference);
+    let shape = medium.shape();
+    // No step from a neighbour costs a tenth more than in the cell itself.
+    let is_plausible = |distance: &f64| {
+        let most = 1.1 / medium.speed_sq(cell).sqrt();
+        shape.neighbours(cell).all(|next| *distance <= known[next] + most)
+    };
+    let with = |difference| bisect(medium, source, known, cell, difference).filter(is_plausible);
     let second = if order == Order::Second { with(Difference::Second) } else { None };
     let first = second.or_else(|| with(Difference::Factored));
     first.or_else(|| with(Difference::Plain)).unwrap_or(f64::INFINITY)
@@ -150,7 +156,6 @@ fn compare<const D: usize>(size: [usize; D], contrast: f64, seed: u64, order: Or
     cells.sort_by(|&a, &b| expected[a].total_cmp(&expected[b]));
     for (cell, expected) in cells.into_iter().map(|cell| (cell, expected[cell])) {
         let value = field.values()[cell];
-        let index = medium.shape().index(cell);
         let same = value == expected || (value - expected).abs() < 1e-9 * (1.0 + expected);
         assert!(
             same,
@@ -210,20 +215,20 @@ proptest! {
         check_reached(&medium, source);
     }
 
-    /// Between walls a step to a neighbour costs at most its length, but for the error of the
-    /// differences around corners.
+    /// A step to a neighbour costs at most a tenth more than it does at the speed there.
     #[test]
-    fn neighbours_are_near_each_other(seed in 0_u64..1 << 32) {
+    fn neighbours_are_near_each_other(seed in 0_u64..1 << 32, contrast in 0.0..4.0) {
         let shape = Shape::with_spacing([24, 17], [1.0, 1.7]).unwrap();
-        let (medium, source) = rough(shape, 0.0, Form::Pointwise, 0.2, seed);
+        let (medium, source) = rough(shape, contrast, Form::Pointwise, 0.2, seed);
         let off = [source[0] + 0.3, source[1] - 0.2];
         let source = if medium.mask().segment_is_open(source, off) && shape.contains(off) { off } else { source };
         let field = march(&medium, &[source], &EikonalOptions::default());
         for cell in (0..shape.cells()).filter(|&cell| field.values()[cell] < NOT_REACHED) {
-            for next in shape.neighbours(cell).filter(|&next| medium.mask().is_open(next)) {
-                let most = shape.physical_distance(shape.centre(cell), shape.centre(next));
-                let step = (field.values()[cell] - field.values()[next]).abs();
-                prop_assert!(step <= 1.02 * most, "{step} of {most}");
+            for next in shape.neighbours(cell).filter(|&next| field.values()[next] < NOT_REACHED) {
+                let length = shape.physical_distance(shape.centre(cell), shape.centre(next));
+                let most = 1.1 * length / medium.speed_sq(next).sqrt();
+                let step = field.values()[next] - field.values()[cell];
+                prop_assert!(step <= most * (1.0 + 1e-9), "{step} of {most}");
             }
         }
     }

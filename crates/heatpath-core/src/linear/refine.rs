@@ -15,7 +15,10 @@ impl Cholesky {
     /// Solves, and solves again for what is missing.
     pub(super) fn solve_refined(&self, sides: &[Entries], simd: SimdLevel) -> Vec<Vec<Wide>> {
         let mut solutions = self.solve_batch(sides, simd);
-        if self.lost() == 0 || self.couplings.iter().any(|&coupling| coupling > 0.0) {
+        let negative = sides.iter().flatten().any(|(_, value)| value.parts().0 < 0.0);
+        let positive = self.couplings.iter().any(|&coupling| coupling > 0.0);
+        // Without one sign what is missing cannot be told from rounding.
+        if self.lost() == 0 || negative || positive {
             return solutions;
         }
         // Each time the solution reaches one unknown further at least.

@@ -95,6 +95,12 @@ impl Wide {
         self.value > 0.0 && (self.exponent, self.value) > (other.exponent, other.value)
     }
 
+    /// The number as f64, which it must not be too large for; below its range zero.
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        self.relative_to(0)
+    }
+
     /// The natural logarithm; minus infinity for zero.
     #[must_use]
     pub fn ln(self) -> f64 {

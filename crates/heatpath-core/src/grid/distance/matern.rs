@@ -6,6 +6,8 @@
 //! `v = m - N/2`, where K is the modified Bessel function of the second kind. Everything here is in
 //! logarithms, for r of any size.
 
+use crate::grid::Grid;
+
 /// What is left of a unit of heat after some implicit steps, as a function of the distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Matern {
@@ -67,6 +69,88 @@ impl Matern {
 
 /// Distances below this are zero.
 const SMALLEST: f64 = 1e-12;
+
+/// The inverse of a [`Matern`] function, tabulated.
+///
+/// A distance is a cubic polynomial of the logarithm in each of many pieces, which meet with equal
+/// values and slopes (Hermite interpolation). Close to the source the distance is like a root or an
+/// exponential, far away nearly linear: pieces that are each longer than the last by the same factor
+/// suit all of them. Against Newton's method the distances are off by less than 3e-8 of
+/// themselves after up to ten steps; a map of 512 x 512 cells takes 1.4 ms instead of 23.
+#[derive(Debug)]
+pub(crate) struct Inverse {
+    function: Matern,
+    /// The logarithm from which pieces are counted downwards.
+    origin: f64,
+    /// The number of the first piece.
+    first: u64,
+    /// The coefficients of each piece.
+    pieces: Vec<[f64; 4]>,
+}
+
+/// Below this distance Newton's method serves; few cells are as near to a source.
+const NEAREST: f64 = 1.0 / 16.0;
+
+/// The pieces between a number and its double are two to this power.
+const PIECES: u32 = 6;
+
+impl Inverse {
+    /// The inverse down to the logarithm `lowest`; none is tabulated if that is above all pieces.
+    pub(crate) fn new(function: Matern, lowest: f64) -> Self {
+        let (ln, slope) = function.ln(NEAREST);
+        // The distance is like the root of what is missing to the top, which would be here.
+        let nearest = -0.5 * slope * NEAREST;
+        let (origin, first) = (ln + nearest, piece(nearest) + 1);
+        let end = first.max(piece((origin - lowest).max(nearest)) + 1);
+        let mut guess = NEAREST;
+        let knots: Vec<[f64; 3]> = (first..=end)
+            .map(|number| {
+                let s = start(number);
+                guess = function.distance(origin - s, guess);
+                [s, guess, -1.0 / function.ln(guess).1]
+            })
+            .collect();
+        let pieces = knots.windows(2).map(|ends| hermite(ends[0], ends[1])).collect();
+        Self { function, origin, first, pieces }
+    }
+
+    /// The distance at which the function has the logarithm `ln`.
+    #[inline]
+    pub(crate) fn distance(&self, ln: f64) -> f64 {
+        let s = self.origin - ln;
+        let number = piece(s);
+        match self.pieces.get(number.wrapping_sub(self.first) as usize) {
+            Some([a, b, c, d]) => {
+                let t = s - start(number);
+                a + t * (b + t * (c + t * d))
+            }
+            None => self.function.distance(ln, NEAREST),
+        }
+    }
+}
+
+/// The smallest finite value of a field of logarithms; infinity if there is none.
+pub(crate) fn lowest<const D: usize>(field: &Grid<f64, D>) -> f64 {
+    field.values().iter().copied().filter(|ln| ln.is_finite()).fold(f64::INFINITY, f64::min)
+}
+
+/// The number of the piece in which `s` lies: its exponent and the first bits behind.
+fn piece(s: f64) -> u64 {
+    s.to_bits() >> (52 - PIECES)
+}
+
+/// Where a piece starts.
+fn start(number: u64) -> f64 {
+    f64::from_bits(number << (52 - PIECES))
+}
+
+/// The cubic polynomial of `s - s0` with given values and slopes at both ends.
+fn hermite([s0, value0, slope0]: [f64; 3], [s1, value1, slope1]: [f64; 3]) -> [f64; 4] {
+    let width = s1 - s0;
+    let mean = (value1 - value0) / width;
+    let square = (3.0 * mean - 2.0 * slope0 - slope1) / width;
+    [value0, slope0, square, (slope0 + slope1 - 2.0 * mean) / (width * width)]
+}
 
 /// The logarithm of the Bessel function `K_0(x)`, and `K_1(x) / K_0(x)`.
 ///
@@ -138,6 +222,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_table_agrees_with_newton() {
+        let mut worst = 0.0_f64;
+        for dimension in 1..=3 {
+            for steps in [1, 2, 3, 10] {
+                for sum in [false, true] {
+                    let matern = Matern { dimension, steps, sum };
+                    let inverse = Inverse::new(matern, matern.ln(1e9).0);
+                    assert!(inverse.pieces.len() < 5000);
+                    let mut last = 0.0;
+                    for i in -2000..3000 {
+                        let r = 10_f64.powf(f64::from(i) * 0.003);
+                        let (ln, slope) = matern.ln(r);
+                        let (found, exact) = (inverse.distance(ln), matern.distance(ln, r));
+                        // The top of the function is flat.
+                        let blur = 1e-13 * ln.abs().max(1.0) / slope.abs();
+                        let error = ((found - exact).abs() - blur) / r;
+                        assert!(error < 1e-7, "{matern:?} at {r}: {found}, {exact}");
+                        assert!(found >= last - blur, "{matern:?} at {r}: {found} after {last}");
+                        (worst, last) = (worst.max(error), found);
+                    }
+                }
+            }
+        }
+        println!("largest relative difference {worst:.1e}");
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Distances from the sources.
 
 mod eikonal;
+mod heat_method;
 pub(super) mod matern;
 mod matrix;
 mod varadhan;
 
 pub use eikonal::{Eikonal, EikonalError, EikonalOptions, Order};
+pub use heat_method::{HeatMethod, HeatMethodError, HeatMethodOptions};
 pub use matrix::distance_matrix;
 pub use varadhan::{normalized, normalized_each, varadhan};
 

@@ -1,6 +1,6 @@
 //! Varadhan's formula, equations (3) and (20), and its counterparts for implicit heat.
 
-use super::matern::Matern;
+use super::matern::{Inverse, Matern, lowest};
 use super::{DistanceMap, NOT_REACHED, interpolated};
 use crate::Exec;
 use crate::grid::heat::{Heat, Scheme};
@@ -20,15 +20,11 @@ use crate::grid::heat::{Heat, Scheme};
 #[must_use]
 pub fn varadhan<const D: usize>(heat: &Heat<D>) -> DistanceMap<D> {
     let unit = heat.shape().smallest_spacing();
-    map(
-        heat,
-        match heat.scheme() {
-            Scheme::Explicit => {
-                Readout::Kernel { ln_reference: 0.0, unit, four_t: 4.0 * heat.time() }
-            }
-            Scheme::Implicit => Readout::Resolvent { unit: unit * heat.step().sqrt() },
-        },
-    )
+    let readout = match heat.scheme() {
+        Scheme::Explicit => Readout::Kernel { ln_reference: 0.0, unit, four_t: 4.0 * heat.time() },
+        Scheme::Implicit => Readout::Resolvent { unit: unit * heat.step().sqrt() },
+    };
+    map(heat, &readout)
 }
 
 /// The distance without the factor in front of the exponential: the one to be used for lengths.
@@ -59,7 +55,7 @@ pub fn varadhan<const D: usize>(heat: &Heat<D>) -> DistanceMap<D> {
 /// (heat gathers in fast regions) has distance 0.
 #[must_use]
 pub fn normalized<const D: usize>(heat: &Heat<D>) -> DistanceMap<D> {
-    map(heat, Readout::normalized(heat))
+    map(heat, &Readout::normalized(heat, lowest(heat.ln_temperature())))
 }
 
 /// The [`normalized`] distances of several heats, which the threads of `exec` share.
@@ -72,12 +68,13 @@ pub fn normalized_each<const D: usize>(heats: &[Heat<D>], exec: &Exec) -> Vec<Di
 
 /// The [`normalized`] distances at `points` alone.
 pub(super) fn normalized_at<const D: usize>(heat: &Heat<D>, points: &[[f64; D]]) -> Vec<f64> {
-    let mut readout = Readout::normalized(heat);
-    let mut at = |cell: usize| readout.distance(heat.ln_temperature().values()[cell]);
-    points.iter().map(|&point| interpolated(heat.shape(), point, &mut at)).collect()
+    // A table would not be worth it.
+    let readout = Readout::normalized(heat, f64::INFINITY);
+    let at = |cell: usize| readout.distance(heat.ln_temperature().values()[cell]);
+    points.iter().map(|&point| interpolated(heat.shape(), point, at)).collect()
 }
 
-fn map<const D: usize>(heat: &Heat<D>, mut readout: Readout) -> DistanceMap<D> {
+fn map<const D: usize>(heat: &Heat<D>, readout: &Readout) -> DistanceMap<D> {
     DistanceMap { field: heat.ln_temperature().map(|&ln_u| readout.distance(ln_u)) }
 }
 
@@ -88,37 +85,38 @@ enum Readout {
     /// `-sqrt(step) log u`
     Resolvent { unit: f64 },
     /// The inverse of a Matérn function.
-    Matern { function: Matern, ln_reference: f64, unit: f64, last: f64 },
+    Matern { inverse: Inverse, ln_reference: f64, unit: f64 },
 }
 
 impl Readout {
-    fn normalized<const D: usize>(heat: &Heat<D>) -> Self {
+    /// The readout of temperatures down to the logarithm `lowest`.
+    fn normalized<const D: usize>(heat: &Heat<D>, lowest: f64) -> Self {
         let (unit, ln_reference) = (heat.shape().smallest_spacing(), heat.ln_reference());
         let (dimension, steps) = (heat.shape().dimension(), heat.iterations());
         match heat.scheme() {
             Scheme::Explicit => Self::Kernel { ln_reference, unit, four_t: 4.0 * heat.time() },
             Scheme::Implicit => Self::Matern {
-                function: Matern { dimension, steps, sum: false },
+                inverse: Inverse::new(
+                    Matern { dimension, steps, sum: false },
+                    lowest - ln_reference,
+                ),
                 ln_reference,
                 unit: unit * heat.step().sqrt(),
-                last: 1.0,
             },
         }
     }
 
-    fn distance(&mut self, ln_u: f64) -> f64 {
+    fn distance(&self, ln_u: f64) -> f64 {
         if ln_u == f64::NEG_INFINITY {
             return NOT_REACHED;
         }
         match self {
             Self::Kernel { ln_reference, unit, four_t } => {
-                *unit * (*four_t * (*ln_reference - ln_u)).max(0.0).sqrt()
+                unit * (four_t * (ln_reference - ln_u)).max(0.0).sqrt()
             }
-            Self::Resolvent { unit } => (-*unit * ln_u).max(0.0),
-            Self::Matern { function, ln_reference, unit, last } => {
-                // The neighbour's distance is a good guess.
-                *last = function.distance(ln_u - *ln_reference, *last);
-                *unit * *last
+            Self::Resolvent { unit } => (-unit * ln_u).max(0.0),
+            Self::Matern { inverse, ln_reference, unit } => {
+                unit * inverse.distance(ln_u - ln_reference)
             }
         }
     }

@@ -12,6 +12,7 @@ mod implicit;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
+pub(crate) use implicit::Elimination;
 pub use implicit::{Implicit, ImplicitError, ImplicitOptions};
 pub use operator::FaceMean;
 
@@ -34,6 +35,18 @@ pub trait HeatSolver<const D: usize> {
     /// Why heat cannot flow.
     type Error;
 
+    /// Lets heat flow from `sources`; with amounts that make them equally strong if `balanced`, as
+    /// distances by [`normalized`](super::distance::normalized) ask for.
+    ///
+    /// # Errors
+    /// The caller cancelled.
+    fn flow_from(
+        &self,
+        sources: &Sources<D>,
+        balanced: bool,
+        exec: &Exec,
+    ) -> Result<Heat<D>, Self::Error>;
+
     /// Lets heat flow from each of several sets of sources by itself.
     ///
     /// # Errors
@@ -44,6 +57,15 @@ pub trait HeatSolver<const D: usize> {
 impl<const D: usize> HeatSolver<D> for Explicit<'_, D> {
     type Error = HeatError;
 
+    fn flow_from(
+        &self,
+        sources: &Sources<D>,
+        balanced: bool,
+        exec: &Exec,
+    ) -> Result<Heat<D>, HeatError> {
+        if balanced { self.flow_balanced(sources, exec) } else { self.flow(sources, exec) }
+    }
+
     fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, HeatError> {
         sets.iter().map(|sources| self.flow(sources, exec)).collect()
     }
@@ -51,6 +73,15 @@ impl<const D: usize> HeatSolver<D> for Explicit<'_, D> {
 
 impl<const D: usize> HeatSolver<D> for Implicit<'_, D> {
     type Error = ImplicitError;
+
+    fn flow_from(
+        &self,
+        sources: &Sources<D>,
+        balanced: bool,
+        exec: &Exec,
+    ) -> Result<Heat<D>, ImplicitError> {
+        if balanced { self.flow_balanced(sources, exec) } else { self.flow(sources, exec) }
+    }
 
     fn flow_each(&self, sets: &[Sources<D>], exec: &Exec) -> Result<Vec<Heat<D>>, ImplicitError> {
         self.flow_many(sets, exec)

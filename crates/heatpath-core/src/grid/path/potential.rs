@@ -1,7 +1,7 @@
 //! Heights that paths descend.
 
 use crate::grid::Grid;
-use crate::grid::distance::matern::Matern;
+use crate::grid::distance::matern::{Inverse, Matern, lowest};
 use crate::grid::heat::{Heat, NoExposure, Scheme};
 use std::f64::consts::PI;
 
@@ -48,13 +48,13 @@ fn implicit_potential<const D: usize>(heat: &Heat<D>, exposure: &Grid<f64, D>) -
     let highest = exposure.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // Where heat is trapped around its source, there would be no such distance.
     let strength = heat.ln_reference().max(highest - matern.ln(1e-4).0);
-    let mut last = 1.0;
+    let inverse = Inverse::new(matern, lowest(exposure) - strength);
     exposure.map(|&ln_exposure| {
         if ln_exposure == f64::NEG_INFINITY {
-            return f64::INFINITY;
+            f64::INFINITY
+        } else {
+            inverse.distance(ln_exposure - strength).powi(2)
         }
-        last = matern.distance(ln_exposure - strength, last);
-        last * last
     })
 }
 

@@ -23,6 +23,11 @@ pub(super) struct Front<'a, const D: usize, const N: usize, S> {
 /// How often a watch is asked, in cells.
 const REPORT_EVERY: usize = 1 << 15;
 
+/// The most that a step from a neighbour may cost, over what it costs in the cell, squared. A tenth
+/// more leaves room for smooth media; in mazes and rough media, where T / r is far from smooth, it
+/// catches what would overshoot.
+const LARGEST_STEP_SQ: f64 = 1.21;
+
 impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     pub(super) fn new(stencil: &'a S, seeds: &'a [Seed<D>], order: Order, width: f64) -> Self {
         let places = stencil.places();
@@ -157,8 +162,15 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         upwinds: &[Upwind; N],
     ) -> f64 {
         let factor = Factor::new(self.stencil, &self.seeds[seed as usize], place, index);
+        let is_plausible = |distance: &f64| {
+            upwinds.iter().enumerate().all(|(direction, upwind)| {
+                let step = (distance - upwind.near).max(0.0);
+                self.stencil.weight(place, direction) * step * step <= LARGEST_STEP_SQ
+            })
+        };
         (if self.second_order { factor.solve(upwinds, true) } else { None })
-            .or_else(|| factor.solve(upwinds, false))
+            .filter(is_plausible)
+            .or_else(|| factor.solve(upwinds, false).filter(is_plausible))
             .or_else(|| self.solve_plainly(place, upwinds))
             .unwrap_or(f64::INFINITY)
     }

@@ -6,10 +6,12 @@
 //! in every cell, however small. That is what logarithms need: iterative solvers, whose residual is
 //! small, leave most cells without a correct digit.
 
+mod elimination;
 mod options;
 mod order;
 mod system;
 
+pub(crate) use elimination::Elimination;
 pub use options::{ImplicitError, ImplicitOptions};
 
 use super::operator::{FaceMean, Operator};
@@ -17,11 +19,10 @@ use super::{Heat, Scheme, shares};
 use crate::exec::Exec;
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Sources};
-use crate::linear::{Analysis, Cholesky, Entries, Wide};
+use crate::linear::{Cholesky, Entries, Wide};
 use options::{explained, step};
 use std::borrow::Cow;
-use std::sync::Arc;
-use system::{check_memory, faces, matrix};
+use system::{check_memory, matrix};
 
 /// Implicit heat in one medium, borrowed or owned, factored once for any number of sources.
 ///
@@ -72,17 +73,10 @@ impl<'a, const D: usize> Implicit<'a, D> {
         check_memory(&medium, options.memory_limit)?;
         let operator = Operator::new(&medium, face_mean);
         let step = step(options.time, options.steps, operator.largest_stable_step())?;
-        let cells = order::nested_dissection(medium.mask());
-        let mut places = vec![0; medium.shape().cells()];
-        cells.iter().enumerate().for_each(|(place, &cell)| places[cell] = place);
-        let couplings = faces(&medium)
-            .map(|(axis, cell)| [places[cell], places[cell - medium.shape().stride(axis)]])
-            .collect();
-        let analysis =
-            Analysis::new(cells.len(), couplings, options.memory_limit).map_err(explained)?;
-        let (diagonal, couplings) = matrix(&medium, &operator, &cells, step);
-        let cholesky =
-            Cholesky::new(Arc::new(analysis), &diagonal, &couplings, exec).map_err(explained)?;
+        let elimination = Elimination::new(&medium, options.memory_limit)?;
+        let (diagonal, couplings) = matrix(&medium, &operator, &elimination.cells, step);
+        let cholesky = elimination.factor(&diagonal, &couplings, exec)?;
+        let Elimination { cells, places, .. } = elimination;
         Ok(Self { medium, face_mean, cells, places, cholesky, step, steps: options.steps })
     }
 
