@@ -16,6 +16,7 @@ pub mod path;
 mod sample;
 mod shape;
 mod source;
+mod stencil;
 mod tensor;
 
 pub use field::{Grid, LengthError, NotFinite, fraction};
