@@ -9,6 +9,7 @@
 
 mod explicit;
 mod implicit;
+mod links;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};

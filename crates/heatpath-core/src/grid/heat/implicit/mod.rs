@@ -12,6 +12,7 @@ mod system;
 
 pub use options::{ImplicitError, ImplicitOptions};
 
+use super::links::Links;
 use super::operator::{FaceMean, Operator};
 use super::{Heat, Scheme, shares};
 use crate::exec::Exec;
@@ -21,7 +22,7 @@ use crate::linear::{Analysis, Cholesky, Entries, Wide};
 use options::{explained, step};
 use std::borrow::Cow;
 use std::sync::Arc;
-use system::{check_memory, faces, matrix};
+use system::{check_memory, couplings, matrix};
 
 /// Implicit heat in one medium, borrowed or owned, factored once for any number of sources.
 ///
@@ -72,15 +73,14 @@ impl<'a, const D: usize> Implicit<'a, D> {
         check_memory(&medium, options.memory_limit)?;
         let operator = Operator::new(&medium, face_mean);
         let step = step(options.time, options.steps, operator.largest_stable_step())?;
-        let cells = order::nested_dissection(medium.mask());
+        let reach = operator.links().map_or([1; D], Links::reach);
+        let cells = order::nested_dissection(medium.mask(), reach);
         let mut places = vec![0; medium.shape().cells()];
         cells.iter().enumerate().for_each(|(place, &cell)| places[cell] = place);
-        let couplings = faces(&medium)
-            .map(|(axis, cell)| [places[cell], places[cell - medium.shape().stride(axis)]])
-            .collect();
         let analysis =
-            Analysis::new(cells.len(), couplings, options.memory_limit).map_err(explained)?;
-        let (diagonal, couplings) = matrix(&medium, &operator, &cells, step);
+            Analysis::new(cells.len(), couplings(&operator, &places), options.memory_limit)
+                .map_err(explained)?;
+        let (diagonal, couplings) = matrix(&operator, &cells, step);
         let cholesky =
             Cholesky::new(Arc::new(analysis), &diagonal, &couplings, exec).map_err(explained)?;
         Ok(Self { medium, face_mean, cells, places, cholesky, step, steps: options.steps })
@@ -101,7 +101,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
         let operator = Operator::new(&self.medium, self.face_mean);
         self.step = step(time, steps, operator.largest_stable_step())?;
         self.steps = steps;
-        let (diagonal, couplings) = matrix(&self.medium, &operator, &self.cells, self.step);
+        let (diagonal, couplings) = matrix(&operator, &self.cells, self.step);
         self.cholesky.refactor(&diagonal, &couplings, exec).map_err(explained)?;
         Ok(self)
     }

@@ -11,44 +11,48 @@ pub(super) fn check_memory<const D: usize>(
     limit: usize,
 ) -> Result<(), ImplicitError> {
     let open = (0..medium.shape().cells()).filter(|&cell| medium.mask().is_open(cell)).count();
-    let needed = Analysis::least_bytes(open, faces(medium).count());
+    let needed = Analysis::least_bytes(open, faces(medium));
     if needed <= limit {
         return Ok(());
     }
     Err(ImplicitError::TooLarge(LinearError::TooLarge { needed, limit }))
 }
 
-/// The faces between open cells: the axis, and the cell after the face.
-pub(super) fn faces<const D: usize>(
-    medium: &Medium<D>,
-) -> impl Iterator<Item = (usize, usize)> + '_ {
+/// The number of faces between open cells.
+fn faces<const D: usize>(medium: &Medium<D>) -> usize {
     let (shape, mask) = (*medium.shape(), medium.mask());
-    (0..D).flat_map(move |axis| {
-        let stride = shape.stride(axis);
-        (stride..shape.cells())
-            .filter(move |&cell| {
-                shape.index(cell)[axis] > 0 && mask.is_open(cell) && mask.is_open(cell - stride)
-            })
-            .map(move |cell| (axis, cell))
-    })
+    let has_face = |axis: usize, cell: usize| {
+        shape.index(cell)[axis] > 0 && mask.is_open(cell) && mask.is_open(cell - shape.stride(axis))
+    };
+    let along =
+        |axis| (shape.stride(axis)..shape.cells()).filter(|&cell| has_face(axis, cell)).count();
+    (0..D).map(along).sum()
 }
 
-/// The diagonal of `1/k + step L` in the order of `cells`, and its entries for all faces.
+/// The cells, by their `places`, between which heat flows: those with an entry off the diagonal.
+pub(super) fn couplings<const D: usize>(
+    operator: &Operator<D>,
+    places: &[usize],
+) -> Vec<[usize; 2]> {
+    let mut couplings = Vec::new();
+    operator.for_each_pair(|pair, _| couplings.push(pair.map(|cell| places[cell])));
+    couplings
+}
+
+/// The diagonal of `1/k + step L` in the order of `cells`, and its entries for all couplings.
 pub(super) fn matrix<const D: usize>(
-    medium: &Medium<D>,
     operator: &Operator<D>,
     cells: &[usize],
     step: f64,
 ) -> (Vec<f64>, Vec<f64>) {
     let mut diagonal: Vec<f64> =
-        (0..medium.shape().cells()).map(|cell| 1.0 / operator.factor_of(cell)).collect();
-    let couplings = faces(medium)
-        .map(|(axis, cell)| {
-            let weight = step * operator.conductance(axis, cell);
-            diagonal[cell] += weight;
-            diagonal[cell - medium.shape().stride(axis)] += weight;
-            -weight
-        })
-        .collect();
+        (0..operator.medium().shape().cells()).map(|cell| 1.0 / operator.factor_of(cell)).collect();
+    let mut couplings = Vec::new();
+    operator.for_each_pair(|[a, b], conductance| {
+        let weight = step * conductance;
+        diagonal[a] += weight;
+        diagonal[b] += weight;
+        couplings.push(-weight);
+    });
     (cells.iter().map(|&cell| diagonal[cell]).collect(), couplings)
 }
