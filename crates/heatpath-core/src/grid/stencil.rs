@@ -44,8 +44,12 @@ fn axes<const D: usize>(matrix: &Matrix<D>) -> [([i32; D], f64); 6] {
     sum
 }
 
-/// The matrix, or if its eigenvalues differ too much, with something added to all of them.
-fn conditioned<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
+/// The matrix, or if its eigenvalues differ too much for [`selling`], with something added to all of
+/// them.
+pub(crate) fn conditioned<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
+    if is_diagonal(matrix) {
+        return *matrix;
+    }
     let floor = trace(matrix) / LARGEST_CONDITION;
     let mut raised = *matrix;
     let lacking = floor - smallest_eigenvalue(matrix);
@@ -183,10 +187,9 @@ mod tests {
             for row in &mut matrix {
                 (row[a], row[b]) = (cos * row[a] - sin * row[b], sin * row[a] + cos * row[b]);
             }
-            for column in 0..3 {
-                let (p, q) = (matrix[a][column], matrix[b][column]);
-                (matrix[a][column], matrix[b][column]) = (cos * p - sin * q, sin * p + cos * q);
-            }
+            let (p, q) = (matrix[a], matrix[b]);
+            matrix[a] = std::array::from_fn(|column| cos * p[column] - sin * q[column]);
+            matrix[b] = std::array::from_fn(|column| sin * p[column] + cos * q[column]);
         }
         // The same bits above and below the diagonal.
         std::array::from_fn(|i| std::array::from_fn(|j| matrix[i.min(j)][i.max(j)]))

@@ -9,10 +9,11 @@
 
 mod explicit;
 mod implicit;
+mod links;
 mod operator;
 
 pub use explicit::{Duration, Explicit, HeatError, HeatOptions, Step};
-pub(crate) use implicit::Elimination;
+pub(crate) use implicit::{Elimination, check_memory, faces};
 pub use implicit::{Implicit, ImplicitError, ImplicitOptions};
 pub use operator::FaceMean;
 

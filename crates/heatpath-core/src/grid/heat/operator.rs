@@ -1,8 +1,13 @@
 //! The discrete `k div(D grad u)`.
 
+use super::links::Links;
 use crate::grid::medium::{Diffusion, Medium};
 
 /// How the diffusion coefficient of a face is made from the two cells that share it.
+///
+/// It counts where D is a number; where it is a tensor, pairs of cells always have the arithmetic
+/// mean of what their two cells give to the direction between them, which in one of them may be
+/// nothing.
 ///
 /// The harmonic mean is the default for three reasons. It gives the right flux through layers of
 /// different materials. It is nearer to what lengths ask for: crossing from a cell of D = 1 into one
@@ -32,16 +37,24 @@ impl FaceMean {
 ///
 /// The flux through a face is its conductance times the difference of u. Conductances are in cell
 /// units: D on the face, times (smallest spacing / spacing along the axis)^2. A face of a wall or of
-/// the border does not exist: its conductance is zero.
-#[derive(Clone, Copy, Debug)]
+/// the border does not exist: its conductance is zero. Where D is a tensor, heat flows between
+/// pairs of cells further apart as well: its [`Links`].
+#[derive(Debug)]
 pub(super) struct Operator<'a, const D: usize> {
     medium: &'a Medium<D>,
     mean: FaceMean,
+    links: Option<Links<D>>,
 }
 
 impl<'a, const D: usize> Operator<'a, D> {
     pub(super) fn new(medium: &'a Medium<D>, mean: FaceMean) -> Self {
-        Self { medium, mean }
+        let links = medium.diffusion().tensor().map(|field| Links::new(medium, field));
+        Self { medium, mean, links }
+    }
+
+    /// The pairs of cells between which heat flows, if D is a tensor.
+    pub(super) fn links(&self) -> Option<&Links<D>> {
+        self.links.as_ref()
     }
 
     pub(super) fn medium(&self) -> &'a Medium<D> {
@@ -82,15 +95,23 @@ impl<'a, const D: usize> Operator<'a, D> {
         matches!(self.medium.diffusion(), Diffusion::Uniform) && self.medium.mask().is_all_open()
     }
 
-    /// The conductance of the face between the cell at a position and the one before it along
-    /// `axis`.
-    pub(super) fn conductance(&self, axis: usize, cell: usize) -> f64 {
-        let (shape, mask) = (self.medium.shape(), self.medium.mask());
-        if shape.index(cell)[axis] == 0 || !mask.is_open(cell) {
-            return 0.0;
+    /// Calls `visit` for each two cells between which heat flows, with their positions and their
+    /// conductance.
+    pub(super) fn for_each_pair(&self, mut visit: impl FnMut([usize; 2], f64)) {
+        if let Some(links) = &self.links {
+            return links.for_each_pair(|pair, link| visit(pair, link.conductance));
         }
-        let before = cell - shape.stride(axis);
-        if mask.is_open(before) { self.between_open(axis, before) } else { 0.0 }
+        let shape = self.medium.shape();
+        for axis in 0..D {
+            let stride = shape.stride(axis);
+            for row in shape.rows() {
+                let cells = shape.position(row)..;
+                let faces = cells.zip(self.conductances(axis, row));
+                faces
+                    .filter(|(_, conductance)| *conductance > 0.0)
+                    .for_each(|(cell, conductance)| visit([cell, cell + stride], conductance));
+            }
+        }
     }
 
     /// The largest time step, in cell units, at which explicit heat stays positive and stable:
@@ -98,20 +119,11 @@ impl<'a, const D: usize> Operator<'a, D> {
     ///
     /// Infinite if nothing can flow.
     pub(super) fn largest_stable_step(&self) -> f64 {
-        let shape = self.medium.shape();
-        let mut sums = vec![0.0; shape.cells()];
-        for axis in 0..D {
-            let stride = shape.stride(axis);
-            for row in shape.rows() {
-                let cells = shape.position(row)..;
-                for (cell, conductance) in cells.zip(self.conductances(axis, row)) {
-                    if conductance > 0.0 {
-                        sums[cell] += conductance;
-                        sums[cell + stride] += conductance;
-                    }
-                }
-            }
-        }
+        let mut sums = vec![0.0; self.medium.shape().cells()];
+        self.for_each_pair(|[a, b], conductance| {
+            sums[a] += conductance;
+            sums[b] += conductance;
+        });
         let rates = sums.iter().enumerate().map(|(cell, sum)| sum * self.factor_of(cell));
         1.0 / rates.fold(0.0, f64::max)
     }

@@ -3,7 +3,7 @@
 use super::Faces;
 use super::pins::{Pin, Pinned};
 use crate::Exec;
-use crate::grid::heat::{Elimination, ImplicitError};
+use crate::grid::heat::{Elimination, ImplicitError, check_memory, faces};
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Mask};
 use crate::linear::{Cholesky, Entries, Wide};
@@ -15,7 +15,9 @@ use crate::linear::{Cholesky, Entries, Wide};
 /// alone: their solutions are those of the free Laplacian, up to the constant.
 #[derive(Debug)]
 pub(super) struct Poisson<const D: usize> {
-    elimination: Elimination<D>,
+    elimination: Elimination,
+    /// The faces between open cells: the axis, and the cell after the face.
+    faces: Vec<(usize, usize)>,
     cholesky: Cholesky,
     /// The weight of each face over its length squared, in cell units.
     weights: Faces<D>,
@@ -31,12 +33,15 @@ impl<const D: usize> Poisson<D> {
         memory_limit: usize,
         exec: &Exec,
     ) -> Result<Self, ImplicitError> {
-        let elimination = Elimination::new(medium, memory_limit)?;
+        check_memory(medium, memory_limit)?;
         let (shape, slowness) = (medium.shape(), slowness.values());
+        let faces: Vec<(usize, usize)> = faces(medium).collect();
+        let pairs = faces.iter().map(|&(axis, cell)| [cell, cell - shape.stride(axis)]);
+        let elimination = Elimination::new(medium.mask(), [1; D], pairs, memory_limit)?;
         let mut weights: Faces<D> = std::array::from_fn(|_| vec![0.0; shape.cells()]);
         let mut diagonal = vec![0.0; shape.cells()];
-        let mut couplings = Vec::with_capacity(elimination.faces.len());
-        for &(axis, cell) in &elimination.faces {
+        let mut couplings = Vec::with_capacity(faces.len());
+        for &(axis, cell) in &faces {
             let before = cell - shape.stride(axis);
             let mean = 0.5 * (slowness[cell] + slowness[before]);
             let weight = (shape.smallest_spacing() / (mean * shape.spacing()[axis])).powi(2);
@@ -49,7 +54,7 @@ impl<const D: usize> Poisson<D> {
         });
         let diagonal: Vec<f64> = elimination.cells.iter().map(|&cell| diagonal[cell]).collect();
         let cholesky = elimination.factor(&diagonal, &couplings, exec)?;
-        Ok(Self { elimination, cholesky, weights, components })
+        Ok(Self { elimination, faces, cholesky, weights, components })
     }
 
     /// The memory that the factorisation takes, in bytes.
@@ -59,7 +64,7 @@ impl<const D: usize> Poisson<D> {
 
     /// The faces between open cells: the axis, and the cell after the face.
     pub(super) fn faces(&self) -> &[(usize, usize)] {
-        &self.elimination.faces
+        &self.faces
     }
 
     /// A pin in a cell.

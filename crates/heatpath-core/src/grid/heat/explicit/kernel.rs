@@ -1,6 +1,6 @@
 //! Explicit heat: one row, and the order of rows when several steps are made at once.
 
-use super::stencil::{ROW_MULTIPLE, Stencil};
+use super::stencil::{FaceStencil, ROW_MULTIPLE, Stencil};
 use crate::simd::{Aligned, Lanes};
 use bytemuck::{cast_slice, cast_slice_mut};
 use std::ops::Range;
@@ -69,8 +69,14 @@ impl<V: bytemuck::Pod, const D: usize> Row<'_, V, D> {
 /// Part of the grid, copied to where it can be advanced by several steps.
 pub(super) struct Window<const D: usize> {
     /// The numbers from one row to the next along each axis but x (0 along x).
-    strides: [usize; D],
+    pub(super) strides: [usize; D],
+    /// The numbers before the first row.
+    first: usize,
     pub(super) u: Aligned,
+    /// u before or after a step where it cannot be updated in place; empty where it can.
+    pub(super) other: Aligned,
+    /// How far apart in the window the cells of each offset of the stencil are.
+    pub(super) shifts: Vec<isize>,
     /// `step x k` of every cell, or of one row if it is the same everywhere.
     pub(super) rate: Aligned,
     pub(super) rate_is_uniform: bool,
@@ -95,15 +101,16 @@ pub(super) struct Extent<const D: usize> {
 }
 
 impl<const D: usize> Extent<D> {
-    /// The cells along an axis to be computed in step number `step`.
+    /// The cells along an axis that are further than `margin` from the ends of the window, except at the
+    /// border of the grid.
     ///
-    /// What lies outside the window is not known, so along each axis one cell more becomes wrong
-    /// with every step, except at the border of the grid. Along x whole rows are computed.
+    /// What lies outside the window is not known, so along each axis some cells more become wrong with
+    /// every step. Along x whole rows are computed.
     #[inline(always)]
-    fn computed(&self, axis: usize, step: usize) -> Range<usize> {
+    pub(super) fn inner(&self, axis: usize, margin: usize) -> Range<usize> {
         let (starts, ends) = self.is_border[axis];
-        let low = if starts { 0 } else { step };
-        low..self.size[axis] - if ends { 0 } else { step }
+        let low = if starts { 0 } else { margin };
+        low..self.size[axis] - if ends { 0 } else { margin }
     }
 
     /// The cells of a row that are computed.
@@ -114,7 +121,12 @@ impl<const D: usize> Extent<D> {
 }
 
 impl<const D: usize> Window<D> {
-    pub(super) fn new(room: [usize; D], steps: usize, with_sum: bool) -> Self {
+    pub(super) fn new(
+        room: [usize; D],
+        steps: usize,
+        stencil: &Stencil<D>,
+        with_sum: bool,
+    ) -> Self {
         // Behind the last row along each axis one more is read, through faces without conductance.
         let mut strides = [0; D];
         let mut numbers = room[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE;
@@ -122,21 +134,41 @@ impl<const D: usize> Window<D> {
             strides[axis] = numbers;
             numbers *= room[axis] + 1;
         }
-        Self {
+        let mut window = Self {
             strides,
-            u: Aligned::zeros(numbers),
-            rate: Aligned::zeros(numbers),
+            first: 0,
+            u: Aligned::default(),
+            other: Aligned::default(),
+            shifts: Vec::new(),
+            rate: Aligned::default(),
             rate_is_uniform: false,
-            sum: Aligned::zeros(if with_sum { numbers } else { 0 }),
-            inflow_last: Aligned::zeros(strides[D - 1] * steps),
-            inflow_middle: Aligned::zeros(strides[1]),
+            sum: Aligned::default(),
+            inflow_last: Aligned::default(),
+            inflow_middle: Aligned::default(),
+        };
+        match stencil {
+            Stencil::Faces(_) => {
+                window.rate = Aligned::zeros(numbers);
+                window.inflow_last = Aligned::zeros(strides[D - 1] * steps);
+                window.inflow_middle = Aligned::zeros(strides[1]);
+            }
+            Stencil::Gather(gather) => {
+                // What lies beyond the ends of the first and the last row is read, and counts for nothing.
+                window.first = gather.reach()[0].next_multiple_of(ROW_MULTIPLE);
+                numbers += 2 * window.first;
+                window.other = Aligned::zeros(numbers);
+                window.shifts = gather.shifts(&strides);
+            }
         }
+        window.u = Aligned::zeros(numbers);
+        window.sum = Aligned::zeros(if with_sum { numbers } else { 0 });
+        window
     }
 
     /// Where the row of a cell begins.
     #[inline(always)]
     pub(super) fn row(&self, index: [usize; D]) -> usize {
-        (1..D).map(|axis| index[axis] * self.strides[axis]).sum()
+        (1..D).fold(self.first, |start, axis| start + index[axis] * self.strides[axis])
     }
 
     /// The numbers that belong to a row, with room for a vector behind it.
@@ -146,10 +178,6 @@ impl<const D: usize> Window<D> {
     }
 
     /// Advances all cells by `steps`, which may be fewer than there is room for.
-    ///
-    /// The rows (in 3-D: planes) are passed over once by a front of all steps: behind the first
-    /// step, one row later, follows the second, and so on. So a row is read from cache by all steps
-    /// but the first.
     #[inline(always)]
     pub(super) fn advance<L: Lanes>(
         &mut self,
@@ -158,10 +186,29 @@ impl<const D: usize> Window<D> {
         extent: &Extent<D>,
         steps: usize,
     ) {
+        match stencil {
+            Stencil::Faces(faces) => self.flow_through(lanes, faces, extent, steps),
+            Stencil::Gather(gather) => self.gather(lanes, gather, extent, steps),
+        }
+    }
+
+    /// Advances all cells by what flows through their faces.
+    ///
+    /// The rows (in 3-D: planes) are passed over once by a front of all steps: behind the first
+    /// step, one row later, follows the second, and so on. So a row is read from cache by all steps
+    /// but the first.
+    #[inline(always)]
+    fn flow_through<L: Lanes>(
+        &mut self,
+        lanes: L,
+        stencil: &FaceStencil<D>,
+        extent: &Extent<D>,
+        steps: usize,
+    ) {
         self.inflow_last.fill(0.0);
         for front in 0..extent.size[D - 1] + steps - 1 {
             for step in 0..steps.min(front + 1) {
-                if extent.computed(D - 1, step).contains(&(front - step)) {
+                if extent.inner(D - 1, step).contains(&(front - step)) {
                     self.step_plane(lanes, stencil, extent, [front - step, step], steps);
                 }
             }
@@ -173,18 +220,18 @@ impl<const D: usize> Window<D> {
     fn step_plane<L: Lanes>(
         &mut self,
         lanes: L,
-        stencil: &Stencil<D>,
+        stencil: &FaceStencil<D>,
         extent: &Extent<D>,
         [plane, step]: [usize; 2],
         steps: usize,
     ) {
-        let rows = if D == 2 { 0..1 } else { extent.computed(1, step) };
+        let rows = if D == 2 { 0..1 } else { extent.inner(1, step) };
         self.inflow_middle.fill(0.0);
         for y in rows {
             let mut index = [0; D];
             index[1] = y;
             index[D - 1] = plane;
-            let lasts = (1..D).all(|axis| extent.computed(axis, steps).contains(&index[axis]));
+            let lasts = (1..D).all(|axis| extent.inner(axis, steps).contains(&index[axis]));
             if lasts && !self.sum.is_empty() {
                 self.step_row::<L, true>(lanes, stencil, extent, index, step);
             } else {
@@ -197,7 +244,7 @@ impl<const D: usize> Window<D> {
     fn step_row<L: Lanes, const SUM: bool>(
         &mut self,
         lanes: L,
-        stencil: &Stencil<D>,
+        stencil: &FaceStencil<D>,
         extent: &Extent<D>,
         index: [usize; D],
         step: usize,

@@ -3,6 +3,8 @@
 //! What is computed stands in `kernel.rs`, one row at a time. In which order, on which thread and
 //! in which range of numbers stands in `schedule.rs` and `scaled.rs`, and changes no bit of it.
 
+mod gather;
+mod gathering;
 mod kernel;
 mod scaled;
 mod schedule;
@@ -160,6 +162,9 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let operator = Operator::new(medium, options.face_mean);
         let largest_stable = operator.largest_stable_step();
         let step = match options.step {
+            Step::Usual if operator.links().is_some() => {
+                Step::usual(D).min(Step::SAFE_FRACTION * largest_stable)
+            }
             Step::Usual => Step::usual(D),
             Step::Fixed(step) => step,
             // Where nothing can flow any step does.
@@ -171,7 +176,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         }
         let usual = (D * medium.shape().longest_side()) as f64;
         let (iterations, step) = steps(options.duration, step, usual)?;
-        let (stencil, exposure) = (Stencil::new(&operator), options.exposure);
+        let (stencil, exposure) = (Stencil::new(&operator, step), options.exposure);
         Ok(Self { medium, stencil, iterations, step, exposure })
     }
 
@@ -243,7 +248,10 @@ impl<'a, const D: usize> Explicit<'a, D> {
             .collect();
         let steps = Steps {
             stencil: &self.stencil,
-            factor: self.medium.factor(),
+            factor: match self.stencil {
+                Stencil::Faces(_) => self.medium.factor(),
+                Stencil::Gather(_) => None,
+            },
             step: self.step,
             iterations: self.iterations,
             exposure,
@@ -272,7 +280,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Fields<D>, HeatError> {
-        for tiling in Tiling::all() {
+        for tiling in Tiling::all(self.stencil.reach()) {
             let mut heat = Tiles::new(self.medium.shape(), tiling);
             shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
             match heat.march(steps, report, exec)? {
@@ -310,15 +318,21 @@ impl<'a, const D: usize> Explicit<'a, D> {
         Some(self.iterations.saturating_sub(furthest))
     }
 
-    /// The cells where heat is at first, and those to which it comes at each step: one cell further.
+    /// The cells where heat is at first, and those to which it comes at each step.
     fn fronts(&self, shares: &[(usize, f64)]) -> impl Iterator<Item = Vec<usize>> {
         let (shape, mask) = (self.medium.shape(), self.medium.mask());
         let mut met = vec![false; shape.cells()];
         let first: Vec<usize> = shares.iter().map(|&(cell, _)| cell).collect();
         first.iter().for_each(|&cell| met[cell] = true);
         std::iter::successors(Some(first), move |front| {
-            let mut next: Vec<usize> =
-                front.iter().flat_map(|&cell| shape.neighbours(cell)).collect();
+            let mut next: Vec<usize> = match &self.stencil {
+                Stencil::Faces(_) => {
+                    front.iter().flat_map(|&cell| shape.neighbours(cell)).collect()
+                }
+                Stencil::Gather(gather) => {
+                    front.iter().flat_map(|&cell| gather.neighbours(cell)).collect()
+                }
+            };
             next.retain(|&cell| mask.is_open(cell) && !std::mem::replace(&mut met[cell], true));
             (!next.is_empty()).then_some(next)
         })

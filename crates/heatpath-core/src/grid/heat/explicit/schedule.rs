@@ -1,16 +1,17 @@
 //! In which order rows are computed: tiles, several steps a visit, threads, range.
 //!
 //! The grid is cut into tiles. A tile is advanced by several steps at a time in a small scratch
-//! window: the tile is copied in with a margin as wide as the number of steps, of which each step
-//! leaves one cell less that is right, until the tile itself is left. The cells of the
+//! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each step
+//! leaves less that is right, until the tile itself is left. The cells of the
 //! margin are computed by more than one tile; in return a tile is visited once for several steps
 //! and stays in cache, tiles depend on nothing but the state before the visit, so they can run on
 //! any thread in any order with the same result, and each tile keeps an exponent of its own.
-//! Heat moves one cell a step, so a tile without heat in it or around it is passed over.
+//! Heat moves one cell a step (in tensor media as far as the longest offset), so a tile without heat
+//! in it or around it is passed over.
 
 use super::kernel::{Extent, Window};
 use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
-use super::stencil::Stencil;
+use super::stencil::{ROW_MULTIPLE, Stencil};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
 use crate::simd::{Lanes, WithLanes};
@@ -19,7 +20,7 @@ use std::sync::Mutex;
 /// The scheme and its time step.
 pub(super) struct Steps<'a, const D: usize> {
     pub(super) stencil: &'a Stencil<D>,
-    /// k, or `None` for 1.
+    /// k as far as it is not in the stencil, or `None` for 1.
     pub(super) factor: Option<&'a Grid<f64, D>>,
     pub(super) step: f64,
     pub(super) iterations: usize,
@@ -36,6 +37,8 @@ pub(super) struct Tiling<const D: usize> {
     edge: [usize; D],
     /// How many steps a visit takes.
     steps: usize,
+    /// How many cells heat moves along each axis in one step at most.
+    reach: [usize; D],
 }
 
 impl<const D: usize> Tiling<D> {
@@ -43,25 +46,40 @@ impl<const D: usize> Tiling<D> {
     ///
     /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
     /// they must hold a wider range of values, and in 3-D outgrow the cache.
-    pub(super) fn all() -> impl Iterator<Item = Self> {
-        let edges: &[usize] = if D < 3 { &[64, 32, 16, 8] } else { &[32, 16, 8] };
+    /// Where heat moves further than a cell in a step, larger tiles have room for its margins, which
+    /// are not wider than a quarter of a tile if one step is not.
+    pub(super) fn all(reach: [usize; D]) -> impl Iterator<Item = Self> {
+        let furthest = reach.into_iter().max().unwrap_or(1);
+        let edges: &[usize] = match D {
+            3 => &[32, 16, 8],
+            _ if furthest > 1 => &[128, 64, 32, 16, 8],
+            _ => &[64, 32, 16, 8],
+        };
         let longest = if D < 3 { None } else { Some((128, edges[0])) };
         let others = edges.iter().flat_map(|&edge| [(2 * edge, edge), (edge, edge)]);
-        longest.into_iter().chain(others).map(|(length, edge)| Self {
-            edge: std::array::from_fn(|axis| if axis == 0 { length } else { edge }),
-            steps: edge / 8,
+        longest.into_iter().chain(others).map(move |(length, edge)| {
+            let steps = (edge / 8).min(edge / 4 / furthest).clamp(1, MOST_STEPS);
+            let edge = std::array::from_fn(|axis| if axis == 0 { length } else { edge });
+            Self { edge, steps, reach }
         })
     }
 
     /// The most steps that heat takes from any cell of a window to any other, if there are no walls.
-    fn reach(&self) -> usize {
-        self.edge.iter().map(|edge| edge + 2 * self.steps).sum()
+    ///
+    /// At every step it comes at least to all neighbours across faces.
+    fn longest_way(&self) -> usize {
+        self.edge.iter().zip(self.reach).map(|(edge, reach)| edge + 2 * reach * self.steps).sum()
+    }
+
+    /// Where a tile begins along x in its window: at least the margin, and such that the rows of the
+    /// window begin at a vector of the stencil.
+    fn margin_x(&self) -> usize {
+        (self.reach[0] * self.steps).next_multiple_of(ROW_MULTIPLE)
     }
 }
 
-/// Where a tile begins along x in its window: at least the steps of a visit, and such that the rows
-/// of the window begin at a vector of the conductances.
-const MARGIN_X: usize = 8;
+/// The most steps that a visit takes.
+const MOST_STEPS: usize = 8;
 
 /// How many powers of two the largest value of a window may lie above the top of a tile's range.
 const HEADROOM: i32 = 32;
@@ -172,9 +190,9 @@ impl<const D: usize> Tiles<D> {
             }
             self.visited = visited;
             done += count;
-            let reach = self.tiling.reach();
-            let is_late = done + reach > steps.iterations;
-            if has_lost && (is_late || steps.spare.is_some_and(|spare| spare < reach)) {
+            let longest_way = self.tiling.longest_way();
+            let is_late = done + longest_way > steps.iterations;
+            if has_lost && (is_late || steps.spare.is_some_and(|spare| spare < longest_way)) {
                 return Ok(None);
             }
         }
@@ -187,10 +205,10 @@ impl<const D: usize> Tiles<D> {
 
     /// Where a thread advances its tile.
     fn window(&self, steps: &Steps<D>) -> Window<D> {
-        let Tiling { edge, steps: margin } = self.tiling;
-        let room =
-            std::array::from_fn(|axis| edge[axis] + 2 * if axis == 0 { MARGIN_X } else { margin });
-        let mut window = Window::new(room, margin, steps.exposure);
+        let Tiling { edge, steps: count, reach } = self.tiling;
+        let margin = |axis| if axis == 0 { self.tiling.margin_x() } else { reach[axis] * count };
+        let room = std::array::from_fn(|axis| edge[axis] + 2 * margin(axis));
+        let mut window = Window::new(room, count, steps.stencil, steps.exposure);
         window.rate.fill(steps.step);
         window.rate_is_uniform = steps.factor.is_none();
         window
@@ -208,17 +226,17 @@ impl<const D: usize> Tiles<D> {
 
     /// The cells of a tile and a margin for `steps` steps, as far as the grid goes.
     fn around(&self, tile: Range<D>, steps: usize) -> Range<D> {
-        let size = self.shape.size();
+        let (size, margin) = (self.shape.size(), self.tiling.reach.map(|reach| reach * steps));
         Range {
-            low: tile.low.map(|i| i.saturating_sub(steps)),
-            high: std::array::from_fn(|axis| (tile.high[axis] + steps).min(size[axis])),
+            low: std::array::from_fn(|axis| tile.low[axis].saturating_sub(margin[axis])),
+            high: std::array::from_fn(|axis| (tile.high[axis] + margin[axis]).min(size[axis])),
         }
     }
 
     /// What a window holds for a tile and the range around it.
     fn extent(&self, tile: Range<D>, around: Range<D>) -> Extent<D> {
         let (mut low, high, size) = (around.low, around.high, self.shape.size());
-        low[0] = tile.low[0].saturating_sub(MARGIN_X);
+        low[0] = tile.low[0].saturating_sub(self.tiling.margin_x());
         Extent {
             low,
             size: std::array::from_fn(|axis| high[axis] - low[axis]),

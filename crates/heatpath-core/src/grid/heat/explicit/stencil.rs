@@ -1,18 +1,45 @@
-//! The conductances of faces, laid out for the kernel.
+//! What flows between which cells, laid out for the kernels.
 
 use super::super::operator::Operator;
+use super::gather::Gather;
 use crate::grid::Shape;
 use crate::simd::Aligned;
 
 /// Rows of the kernel are a whole number of vectors, the longest of which hold 8 numbers.
 pub(super) const ROW_MULTIPLE: usize = 8;
 
+/// The stencil of all cells.
+#[derive(Debug)]
+pub(super) enum Stencil<const D: usize> {
+    /// Heat flows through faces.
+    Faces(FaceStencil<D>),
+    /// D is a tensor.
+    Gather(Gather<D>),
+}
+
+impl<const D: usize> Stencil<D> {
+    pub(super) fn new(operator: &Operator<D>, step: f64) -> Self {
+        match operator.links() {
+            Some(links) => Self::Gather(Gather::new(operator, links, step)),
+            None => Self::Faces(FaceStencil::new(operator)),
+        }
+    }
+
+    /// How many cells heat moves along each axis in one step at most.
+    pub(super) fn reach(&self) -> [usize; D] {
+        match self {
+            Self::Faces(_) => [1; D],
+            Self::Gather(gather) => gather.reach(),
+        }
+    }
+}
+
 /// The conductances of all faces: row by row, each belonging to the cell before it.
 ///
 /// Rows can be read beyond their last cell as far as the kernel's vectors go; there is nothing but
 /// faces without conductance there.
 #[derive(Debug)]
-pub(super) struct Stencil<const D: usize> {
+pub(super) struct FaceStencil<const D: usize> {
     shape: Shape<D>,
     axes: [Faces; D],
 }
@@ -26,8 +53,8 @@ enum Faces {
     Varying(Aligned),
 }
 
-impl<const D: usize> Stencil<D> {
-    pub(super) fn new(operator: &Operator<D>) -> Self {
+impl<const D: usize> FaceStencil<D> {
+    fn new(operator: &Operator<D>) -> Self {
         let shape = *operator.medium().shape();
         let faces = |axis| if operator.is_uniform() { uniform } else { varying }(operator, axis);
         Self { shape, axes: std::array::from_fn(faces) }

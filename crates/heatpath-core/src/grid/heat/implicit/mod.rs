@@ -11,9 +11,11 @@ mod options;
 mod order;
 mod system;
 
-pub(crate) use elimination::Elimination;
+pub(crate) use elimination::{Elimination, faces};
 pub use options::{ImplicitError, ImplicitOptions};
+pub(crate) use system::check_memory;
 
+use super::links::Links;
 use super::operator::{FaceMean, Operator};
 use super::{Heat, Scheme, shares};
 use crate::exec::Exec;
@@ -22,7 +24,7 @@ use crate::grid::{Grid, Sources};
 use crate::linear::{Cholesky, Entries, Wide};
 use options::{explained, step};
 use std::borrow::Cow;
-use system::{check_memory, matrix};
+use system::{couplings, matrix};
 
 /// Implicit heat in one medium, borrowed or owned, factored once for any number of sources.
 ///
@@ -73,8 +75,10 @@ impl<'a, const D: usize> Implicit<'a, D> {
         check_memory(&medium, options.memory_limit)?;
         let operator = Operator::new(&medium, face_mean);
         let step = step(options.time, options.steps, operator.largest_stable_step())?;
-        let elimination = Elimination::new(&medium, options.memory_limit)?;
-        let (diagonal, couplings) = matrix(&medium, &operator, &elimination.cells, step);
+        let reach = operator.links().map_or([1; D], Links::reach);
+        let pairs = couplings(&operator).into_iter();
+        let elimination = Elimination::new(medium.mask(), reach, pairs, options.memory_limit)?;
+        let (diagonal, couplings) = matrix(&operator, &elimination.cells, step);
         let cholesky = elimination.factor(&diagonal, &couplings, exec)?;
         let Elimination { cells, places, .. } = elimination;
         Ok(Self { medium, face_mean, cells, places, cholesky, step, steps: options.steps })
@@ -95,7 +99,7 @@ impl<'a, const D: usize> Implicit<'a, D> {
         let operator = Operator::new(&self.medium, self.face_mean);
         self.step = step(time, steps, operator.largest_stable_step())?;
         self.steps = steps;
-        let (diagonal, couplings) = matrix(&self.medium, &operator, &self.cells, self.step);
+        let (diagonal, couplings) = matrix(&operator, &self.cells, self.step);
         self.cholesky.refactor(&diagonal, &couplings, exec).map_err(explained)?;
         Ok(self)
     }

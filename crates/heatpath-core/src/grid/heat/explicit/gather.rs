@@ -1,0 +1,156 @@
+//! What each cell receives from others in a step of explicit heat where D is a tensor.
+//!
+//! `u' = sum of share x u(other cell)`, the cell itself among the others. Shares are not negative, so
+//! nothing cancels: u is positive wherever heat has come, and exact to a few units in its last place a
+//! step.
+//!
+//! Which offsets a cell has differs from cell to cell, but neighbours have most of them in common. So
+//! eight cells in a row along x, a bundle, share one list of offsets: those of all of them. Shares and
+//! values are then read eight at a time, each from one place, and added up in registers. The shares of cells that do not have an offset of
+//! their bundle are zeros, which change no bit of a sum. Tried and slower, by a third to a half: lists for
+//! longer strips, and one offset after the other for a whole row, in which sums go through memory.
+
+use super::super::links::Links;
+use super::super::operator::Operator;
+use super::stencil::ROW_MULTIPLE;
+use crate::grid::Shape;
+use crate::simd::Aligned;
+
+/// The cells that share a list of offsets, which belong together on any grid, however it is cut.
+pub(super) const BUNDLE: usize = ROW_MULTIPLE;
+
+/// Where cells receive heat from, and which share of it.
+#[derive(Debug)]
+pub(super) struct Gather<const D: usize> {
+    shape: Shape<D>,
+    reach: [usize; D],
+    /// All offsets: none, those from a cell to one after it in memory, and their opposites.
+    offsets: Vec<[i16; D]>,
+    /// Where the terms of each bundle begin, row by row, and where those of the last end.
+    starts: Vec<usize>,
+    /// The number of the offset of each term, in order in each bundle.
+    terms: Vec<u32>,
+    /// Eight shares for each term.
+    shares: Aligned,
+}
+
+impl<const D: usize> Gather<D> {
+    /// Steps of length `step`.
+    pub(super) fn new(operator: &Operator<D>, links: &Links<D>, step: f64) -> Self {
+        let shape = *operator.medium().shape();
+        let forward = links.offsets();
+        let backward = forward.iter().map(|offset| offset.map(|part| -part));
+        let mut gather = Self {
+            shape,
+            reach: links.reach(),
+            offsets: [[0; D]].into_iter().chain(forward.iter().copied()).chain(backward).collect(),
+            starts: vec![0],
+            terms: Vec::new(),
+            shares: Aligned::default(),
+        };
+        gather.list_terms(links);
+        gather.fill_shares(operator, links, step);
+        gather
+    }
+
+    /// The numbers of an offset of the links and of its opposite.
+    fn numbers(links: &Links<D>, offset: u32) -> [u32; 2] {
+        [1 + offset, 1 + offset + links.offsets().len() as u32]
+    }
+
+    fn list_terms(&mut self, links: &Links<D>) {
+        let rows = self.shape.cells() / self.shape.size()[0];
+        let mut lists = vec![vec![0]; rows * self.bundles_per_row()];
+        links.for_each_pair(|pair, link| {
+            for (cell, number) in pair.into_iter().zip(Self::numbers(links, link.offset)) {
+                let list: &mut Vec<u32> = &mut lists[self.place(cell).0];
+                if !list.contains(&number) {
+                    list.push(number);
+                }
+            }
+        });
+        for list in &mut lists {
+            list.sort_unstable();
+            self.terms.append(list);
+            self.starts.push(self.terms.len());
+        }
+        self.shares = Aligned::zeros(self.terms.len() * BUNDLE);
+    }
+
+    fn fill_shares(&mut self, operator: &Operator<D>, links: &Links<D>, step: f64) {
+        let mut left = vec![1.0; self.shape.cells()];
+        links.for_each_pair(|pair, link| {
+            for (cell, number) in pair.into_iter().zip(Self::numbers(links, link.offset)) {
+                let share = step * operator.factor_of(cell) * link.conductance;
+                left[cell] -= share;
+                let place = self.share(cell, number);
+                place.into_iter().for_each(|place| self.shares[place] = share);
+            }
+        });
+        for (cell, left) in left.into_iter().enumerate() {
+            let place = self.share(cell, 0);
+            place.into_iter().for_each(|place| self.shares[place] = left.max(0.0));
+        }
+    }
+
+    fn bundles_per_row(&self) -> usize {
+        self.shape.size()[0].div_ceil(BUNDLE)
+    }
+
+    /// The bundle of a cell and its place in it.
+    fn place(&self, cell: usize) -> (usize, usize) {
+        let width = self.shape.size()[0];
+        let (row, x) = (cell / width, cell % width);
+        (row * self.bundles_per_row() + x / BUNDLE, x % BUNDLE)
+    }
+
+    /// Where the share of a cell stands that it receives from an offset, if there is one.
+    fn share(&self, cell: usize, offset: u32) -> Option<usize> {
+        let (bundle, place) = self.place(cell);
+        let terms = self.starts[bundle]..self.starts[bundle + 1];
+        let term = self.terms[terms.clone()].binary_search(&offset).ok()?;
+        Some((terms.start + term) * BUNDLE + place)
+    }
+
+    /// How many cells heat moves along each axis in one step at most.
+    pub(super) fn reach(&self) -> [usize; D] {
+        self.reach
+    }
+
+    /// How far apart the two cells of each offset are where rows and planes are so far apart.
+    pub(super) fn shifts(&self, strides: &[usize; D]) -> Vec<isize> {
+        let shift = |offset: &[i16; D]| {
+            (1..D).fold(isize::from(offset[0]), |sum, axis| {
+                sum + isize::from(offset[axis]) * strides[axis] as isize
+            })
+        };
+        self.offsets.iter().map(shift).collect()
+    }
+
+    /// The cells from which a cell receives heat, and which receive heat from it.
+    pub(super) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let shifts = self.shifts(&std::array::from_fn(|axis| self.shape.stride(axis)));
+        let (bundle, place) = self.place(cell);
+        let terms = self.starts[bundle]..self.starts[bundle + 1];
+        terms
+            .filter(move |term| self.shares[term * BUNDLE + place] > 0.0)
+            .map(move |term| cell.wrapping_add_signed(shifts[self.terms[term] as usize]))
+    }
+
+    /// The terms of `count` bundles of a row of the grid.
+    #[inline(always)]
+    pub(super) fn bundles(
+        &self,
+        row: [usize; D],
+        first: usize,
+        count: usize,
+    ) -> impl Iterator<Item = (&[u32], &[[f64; BUNDLE]])> {
+        let row = self.shape.position(row) / self.shape.size()[0];
+        let first = row * self.bundles_per_row() + first;
+        let (shares, _) = self.shares.as_chunks::<BUNDLE>();
+        self.starts[first..=first + count].windows(2).map(
+            #[inline(always)]
+            move |ends| (&self.terms[ends[0]..ends[1]], &shares[ends[0]..ends[1]]),
+        )
+    }
+}
