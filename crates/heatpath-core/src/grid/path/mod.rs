@@ -63,6 +63,9 @@ impl Default for PathOptions {
     }
 }
 
+/// A valley has a kink if the potential bends less than this part of its bend on both sides of it.
+const KINK: f64 = 0.5;
+
 /// How far to look for a lower cell, in cells.
 const FARTHEST_OFFSET: usize = 16;
 
@@ -281,17 +284,27 @@ impl<'a, const D: usize> Descent<'a, D> {
 
     /// The slopes of the potential in a cell, per cell unit, by central differences.
     ///
-    /// No flux passes a wall or the border, so the potential beyond is that of the cell itself.
+    /// No flux passes a wall or the border, so the potential beyond is that of the cell itself. Along a
+    /// fast line the potential has a valley with a kink, of which the two sides are not equally
+    /// steep: there the slope across is 0, so that paths run in the valley and not beside it.
     fn slopes(&self, cell: usize) -> [f64; D] {
-        let shape = self.shape();
-        let (index, size) = (shape.index(cell), shape.size());
-        let here = self.at(cell);
+        let (shape, index) = (self.shape(), self.shape().index(cell));
         std::array::from_fn(|axis| {
-            let stride = shape.stride(axis);
-            let finite = |value: f64| if value.is_finite() { value } else { here };
-            let before = if index[axis] > 0 { finite(self.at(cell - stride)) } else { here };
-            let inside = index[axis] + 1 < size[axis];
-            let after = if inside { finite(self.at(cell + stride)) } else { here };
+            let at = |steps: isize, or: f64| {
+                let there =
+                    index[axis].checked_add_signed(steps).filter(|&i| i < shape.size()[axis]);
+                let offset = steps * shape.stride(axis) as isize;
+                let value = there.map_or(or, |_| self.at(cell.wrapping_add_signed(offset)));
+                if value.is_finite() { value } else { or }
+            };
+            let here = self.at(cell);
+            let (before, after) = (at(-1, here), at(1, here));
+            let bend = before - 2.0 * here + after;
+            let bends = [here - 2.0 * before + at(-2, before), here - 2.0 * after + at(2, after)];
+            let is_valley = before > here && after > here;
+            if is_valley && bends.into_iter().all(|other| other < KINK * bend) {
+                return 0.0;
+            }
             0.5 * (after - before) * shape.smallest_spacing() / shape.spacing()[axis]
         })
     }
