@@ -45,7 +45,7 @@ pub(crate) struct DistanceArgs {
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
-    pub(crate) heat: HeatArgs,
+    pub(crate) method: MethodArgs,
     /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats, a page a slice), or, not
     /// for volumes, .png (a colour-mapped picture). Not reached is infinite.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
@@ -70,7 +70,7 @@ pub(crate) struct PathArgs {
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
-    pub(crate) heat: HeatArgs,
+    pub(crate) method: MethodArgs,
     /// Where the paths go: .json, .csv or, not for volumes, .svg.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
@@ -152,10 +152,10 @@ pub(crate) struct SourceArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptionalSourceArgs {
-    /// Heat starts at this point (repeatable).
+    /// Distances count from this point (repeatable).
     #[arg(long, value_name = "X,Y[,Z]", value_parser = point, allow_hyphen_values = true)]
     pub(crate) source: Vec<Numbers>,
-    /// Heat starts at the points in this CSV or JSON file.
+    /// Distances count from the points in this CSV or JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) sources: Option<PathBuf>,
 }
@@ -165,7 +165,9 @@ pub(crate) struct MediumArgs {
     /// What the heat sees: equations (1), (6), (8), (10), (11) of Yang & Cohen, or a given field.
     #[arg(long, default_value = "conductivity", help_heading = "Medium")]
     pub(crate) medium: MediumArg,
-    /// The positive field of `--medium file`: lengths are ds / sqrt(field).
+    /// The positive field of `--medium file`: lengths are ds / sqrt(field). An NPY array with one more
+    /// axis, of 3 numbers (xx, xy, yy) or in volumes 6 (xx, xy, xz, yy, yz, zz), is the diffusion
+    /// tensor D: lengths are sqrt(dx' D^-1 dx).
     #[arg(long, value_name = "FILE", required_if_eq("medium", "file"), help_heading = "Medium")]
     pub(crate) medium_file: Option<PathBuf>,
     /// The power n of eq. (6).
@@ -217,10 +219,32 @@ pub(crate) struct MediumArgs {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct MethodArgs {
+    /// How distances are found: read from heat, or exactly.
+    #[arg(long, default_value = "normalized", help_heading = "Distance")]
+    pub(crate) estimator: EstimatorArg,
+    /// Exact distances end here, in physical units: all beyond is not reached [default: no end].
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = "Distance")]
+    pub(crate) farthest: Option<f64>,
+    /// How many threads work [default: one per processor].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        hide_default_value = true,
+        help_heading = "Distance"
+    )]
+    pub(crate) threads: usize,
+    #[command(flatten)]
+    pub(crate) heat: HeatArgs,
+}
+
+/// What only heat has.
+#[derive(Debug, clap::Args)]
 pub(crate) struct HeatArgs {
-    /// How heat flows: in many small steps, or in one long step.
-    #[arg(long, default_value = "explicit", help_heading = "Heat")]
-    pub(crate) solver: SolverArg,
+    /// How heat flows, in many small steps or in one long step [default: explicit].
+    #[arg(long, help_heading = "Heat")]
+    pub(crate) solver: Option<SolverArg>,
     /// How many time steps [default: explicit heat, which moves one pixel a step, takes twice the
     /// longest side in pictures and three times in volumes; implicit heat takes 1].
     #[arg(long, value_name = "N", help_heading = "Heat")]
@@ -242,21 +266,10 @@ pub(crate) struct HeatArgs {
     /// The most memory that implicit heat may take, in GiB [default: 4].
     #[arg(long, value_name = "GIB", allow_negative_numbers = true, help_heading = "Heat")]
     pub(crate) memory: Option<f64>,
-    /// The mean that makes the coefficient of a face from those of its two pixels.
-    #[arg(long, default_value = "harmonic", help_heading = "Heat")]
-    pub(crate) face_mean: FaceMeanArg,
-    /// How heat is read as a distance.
-    #[arg(long, default_value = "normalized", help_heading = "Heat")]
-    pub(crate) estimator: EstimatorArg,
-    /// How many threads work [default: one per processor].
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        hide_default_value = true,
-        help_heading = "Heat"
-    )]
-    pub(crate) threads: usize,
+    /// The mean that makes the coefficient of a face from those of its two pixels [default:
+    /// harmonic].
+    #[arg(long, help_heading = "Heat")]
+    pub(crate) face_mean: Option<FaceMeanArg>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -338,6 +351,8 @@ pub(crate) enum EstimatorArg {
     Varadhan,
     /// sqrt(-4 t log(u / u(source))), and the like of implicit heat: for lengths.
     Normalized,
+    /// The exact weighted distance, without heat: the eikonal equation by fast marching.
+    Eikonal,
 }
 
 #[derive(Clone, Copy, Debug)]

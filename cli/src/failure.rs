@@ -1,6 +1,7 @@
 //! What went wrong, and the exit code for it.
 
 use heatpath_core::exec::ThreadsError;
+use heatpath_core::grid::distance::EikonalError;
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::{PointError, ShapeError};
@@ -125,6 +126,17 @@ impl From<ImplicitError> for Failure {
             }
             ImplicitError::Linear(_) => Self::no_answer(error),
             _ => Self::usage(error),
+        }
+    }
+}
+
+impl From<EikonalError> for Failure {
+    fn from(error: EikonalError) -> Self {
+        match error {
+            EikonalError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            EikonalError::Target(error) => error.into(),
+            EikonalError::TooLarge { .. } => Self::bad_input(error),
+            EikonalError::InitialCount { .. } | EikonalError::Initial { .. } => Self::usage(error),
         }
     }
 }

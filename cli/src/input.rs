@@ -9,7 +9,7 @@ use heatpath_core::grid::medium::{
     self, ConductivityOptions, EdgeStop, EdgesOptions, Form, Medium, PeronaMalikOptions,
 };
 use heatpath_core::grid::{Grid, Mask, Shape, check_points};
-use heatpath_io::{Channel, ImageFile, PictureOptions, read_field, read_mask, read_points};
+use heatpath_io::{Channel, ImageFile, PictureOptions, read_mask, read_points};
 use std::path::Path;
 
 /// The names of the coordinates.
@@ -141,14 +141,26 @@ impl<'a, const D: usize> Picture<'a, D> {
     }
 
     fn given_medium(&self, args: &MediumArgs) -> Result<Medium<D>, Failure> {
-        let file = args.medium_file.as_deref();
-        let Some(file) = file else {
+        let Some(path) = args.medium_file.as_deref() else {
             return Err(Failure::usage("`--medium file` needs --medium-file"));
         };
-        let field = read_field(file, self.image.shape().spacing())?;
-        check_size(Some(file), field.shape(), self.image.shape())?;
-        medium::given(field, form(args, Form::Pointwise))
-            .map_err(|error| Failure::bad_input(format!("{}: {error}", file.display())))
+        let shape = self.image.shape();
+        let file = ImageFile::read(path)?;
+        let medium = if file.has_tensors(D) {
+            if matches!(args.form, Some(FormArg::Pointwise)) {
+                let message =
+                    "--form pointwise needs a field of numbers, but this one is of tensors";
+                return Err(Failure::usage(format!("{}: {message}", path.display())));
+            }
+            let field = file.into_tensors(shape.spacing())?;
+            check_size(Some(path), field.shape(), shape)?;
+            medium::given_tensor(field)
+        } else {
+            let field = file.into_field(shape.spacing())?;
+            check_size(Some(path), field.shape(), shape)?;
+            medium::given(field, form(args, Form::Pointwise))
+        };
+        medium.map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
     }
 
     /// The grey values that eq. (6) compares with.
