@@ -123,6 +123,14 @@
  */
 #define HP_MEDIUM_GIVEN 6
 
+/**
+ * The medium is hp_options.tensor, one symmetric positive definite matrix for each pixel: the
+ * diffusion tensor D. Heat is fast along its eigenvectors of large eigenvalues, and lengths are
+ * sqrt(dx' D^-1 dx); a metric tensor must be inverted. Of the image only the size and spacing
+ * count; its data may be NULL.
+ */
+#define HP_MEDIUM_GIVEN_TENSOR 7
+
 /** D = exp(-(|grad f| / contrast)^2). The default. */
 #define HP_EDGE_STOP_EXPONENTIAL 1
 
@@ -154,6 +162,13 @@
  */
 #define HP_VARADHAN 2
 
+/**
+ * The exact weighted distance, without heat: the eikonal equation by fast marching, to second order.
+ * What is about heat alone is ignored: iterations, time, step, solver and memory. It takes one
+ * thread.
+ */
+#define HP_EIKONAL 3
+
 /** Many small time steps, for images of any size. The default. */
 #define HP_SOLVER_EXPLICIT 0
 
@@ -169,7 +184,10 @@
 /** There is no path: walls separate the end point from every source. */
 #define HP_ENDED_UNREACHABLE 2
 
-/** There is no path: no heat has arrived at the end point. More iterations would bring it there. */
+/**
+ * There is no path: no heat has arrived at the end point, and more iterations would bring it there;
+ * or it lies beyond hp_options.farthest.
+ */
 #define HP_ENDED_NOT_REACHED 3
 
 /** The path was given up on the way, after more steps than the image should need. */
@@ -252,8 +270,8 @@ typedef int (*hp_progress)(double finished, void *user);
  * What to compute and how. NULL in place of it means all defaults.
  *
  * Fill it with hp_options_init(), then change fields. It is only read, and not kept; several
- * threads may use the same one if its callback allows that. Parameters that the medium does not
- * use are ignored.
+ * threads may use the same one if its callback allows that. Parameters that the medium or the
+ * estimator does not use are ignored.
  */
 typedef struct hp_options {
   /** sizeof(hp_options). */
@@ -280,7 +298,7 @@ typedef struct hp_options {
    * HP_EDGE_STOP_RATIONAL.
    */
   uint32_t edge_stop;
-  /** For all media but uniform and conductivity: one of HP_FORM_... */
+  /** For all media but uniform, conductivity and given tensor: one of HP_FORM_... */
   uint32_t form;
   /**
    * For Perona-Malik, combined and edges: the standard deviation, in pixels, of the Gaussian
@@ -314,7 +332,7 @@ typedef struct hp_options {
    * that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
    */
   double step;
-  /** HP_NORMALIZED, the default, or HP_VARADHAN. */
+  /** HP_NORMALIZED, the default, HP_VARADHAN or HP_EIKONAL. */
   uint32_t estimator;
   /**
    * The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
@@ -339,6 +357,19 @@ typedef struct hp_options {
    * stands for 4 GiB.
    */
   uint64_t memory;
+  /**
+   * For HP_EIKONAL: the distance, in physical units, beyond which nothing is reached. 0, the
+   * default, stands for no end.
+   */
+  double farthest;
+  /**
+   * For HP_MEDIUM_GIVEN_TENSOR: the components of the matrices in physical units, those of the
+   * first pixel first, then x fastest: xx, xy, yy of each pixel of a picture and xx, xy, xz, yy,
+   * yz, zz of a volume. They follow each other without gaps, and need not be aligned.
+   */
+  const double *tensor;
+  /** The number of these components: 3 or, in a volume, 6 for each pixel. */
+  uint64_t tensor_count;
 } hp_options;
 
 /** What is known about a path besides its points. Set struct_size, then call hp_paths_info(). */
@@ -404,7 +435,8 @@ hp_status hp_buffer_init(struct hp_buffer *buffer, uint32_t struct_size);
 hp_status hp_options_init(struct hp_options *options, uint32_t struct_size);
 
 /**
- * Computes the distance of every pixel from the nearest source, by letting heat flow.
+ * Computes the distance of every pixel from the nearest source, by letting heat flow or, with
+ * HP_EIKONAL, exactly.
  *
  * image: the picture or volume that makes the medium, see hp_options; any type of pixel. Its
  * dimension, 2 or 3, is that of all other arguments.
@@ -419,8 +451,8 @@ hp_status hp_options_init(struct hp_options *options, uint32_t struct_size);
  *
  * distance: receives the result; of the same size, HP_F32 or HP_F64, with any strides; it may be
  * the memory of the image. Distances are in physical units (those of the image's spacing) where
- * the medium is 1, and infinite in walls and wherever no heat has arrived. It is written only if
- * HP_OK is returned.
+ * the medium is 1, and infinite in walls, wherever no heat has arrived and beyond
+ * hp_options.farthest. It is written only if HP_OK is returned.
  *
  * The caller promises:
  * The structs are as large as their struct_size says, and buffers and points are as large as
@@ -507,7 +539,8 @@ hp_status hp_paths_points(const struct hp_paths *paths,
  * image and mask are those of hp_distance(). They are not needed any more when this returns.
  *
  * options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
- * HP_MEDIUM_COMBINED need a reference, so NULL will not do. The estimator does not count.
+ * HP_MEDIUM_COMBINED need a reference, so NULL will not do. Of the estimator it counts whether it
+ * is HP_EIKONAL: such a solver gives those distances only, and other solvers never do.
  *
  * solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
  * returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
@@ -527,9 +560,10 @@ hp_status hp_solver_create(const struct hp_buffer *image,
  *
  * sources: source_count points, as for hp_distance().
  *
- * options: only estimator, threads, progress and user count here; the rest was fixed when the
- * solver was made. NULL for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the
- * threads; the results do not depend on how many there are.
+ * options: only estimator, threads, progress and user count here, and of a solver made with
+ * HP_EIKONAL the estimator does not; the rest was fixed when the solver was made. NULL for the
+ * defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
+ * depend on how many there are.
  *
  * distances: describes the first map, as for hp_distance().
  *

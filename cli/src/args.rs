@@ -45,7 +45,7 @@ pub(crate) struct DistanceArgs {
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
-    pub(crate) heat: HeatArgs,
+    pub(crate) method: MethodArgs,
     /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats, a page a slice), or, not
     /// for volumes, .png (a colour-mapped picture). Not reached is infinite.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
@@ -70,7 +70,7 @@ pub(crate) struct PathArgs {
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
-    pub(crate) heat: HeatArgs,
+    pub(crate) method: MethodArgs,
     /// Where the paths go: .json, .csv or, not for volumes, .svg.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
@@ -152,40 +152,32 @@ pub(crate) struct SourceArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct OptionalSourceArgs {
-    /// Heat starts at this point (repeatable).
+    /// Distances count from this point (repeatable).
     #[arg(long, value_name = "X,Y[,Z]", value_parser = point, allow_hyphen_values = true)]
     pub(crate) source: Vec<Numbers>,
-    /// Heat starts at the points in this CSV or JSON file.
+    /// Distances count from the points in this CSV or JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) sources: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct MediumArgs {
-    /// What the heat sees: equations (1), (6), (8), (10), (11) of Yang & Cohen, or a given field.
+    /// What the heat sees: equations (1), (6), (8), (10) to (12) of Yang & Cohen, tubes, or a
+    /// given field.
     #[arg(long, default_value = "conductivity", help_heading = "Medium")]
     pub(crate) medium: MediumArg,
-    /// The positive field of `--medium file`: lengths are ds / sqrt(field).
+    /// The positive field of `--medium file`: lengths are ds / sqrt(field). An NPY array with one more
+    /// axis, of 3 numbers (xx, xy, yy) or in volumes 6 (xx, xy, xz, yy, yz, zz), is the diffusion
+    /// tensor D: lengths are sqrt(dx' D^-1 dx).
     #[arg(long, value_name = "FILE", required_if_eq("medium", "file"), help_heading = "Medium")]
     pub(crate) medium_file: Option<PathBuf>,
-    /// The power n of eq. (6).
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 3.0,
-        allow_negative_numbers = true,
-        help_heading = "Medium"
-    )]
-    pub(crate) power: f64,
-    /// The constant epsilon of eqs. (6) and (11).
-    #[arg(
-        long,
-        value_name = "E",
-        default_value_t = 1e-3,
-        allow_negative_numbers = true,
-        help_heading = "Medium"
-    )]
-    pub(crate) floor: f64,
+    /// The power n of eq. (6) [default: 3], or of the vesselness [default: 2].
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) power: Option<f64>,
+    /// The constant epsilon of eqs. (6) and (11) [default: 1e-3], or of the vesselness [default:
+    /// 1e-4].
+    #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) floor: Option<f64>,
     /// The grey value (0 to 1) that eq. (6) compares with [default: that of the sources].
     #[arg(long, value_name = "F", allow_negative_numbers = true, help_heading = "Medium")]
     pub(crate) reference: Option<f64>,
@@ -214,13 +206,54 @@ pub(crate) struct MediumArgs {
         help_heading = "Medium"
     )]
     pub(crate) smooth: f64,
+    /// Where the directions of the tensor of eq. (13) come from.
+    #[arg(long, default_value = "hessian", help_heading = "Medium")]
+    pub(crate) tensor: DirectionsArg,
+    /// The anisotropy A of eq. (14), 0 to 0.9998 [default: 0.9; vesselness: 0].
+    #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) anisotropy: Option<f64>,
+    /// Half widths of the tubes that Hessian and vesselness look for: standard deviations of the
+    /// Gaussian before derivatives, in pixels, several for the vesselness [default: 2; vesselness:
+    /// 2,3,4.5].
+    #[arg(
+        long,
+        value_name = "SIGMA",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        help_heading = "Medium"
+    )]
+    pub(crate) scale: Vec<f64>,
+    /// Which tubes Hessian and vesselness look for [default: both; vesselness: bright].
+    #[arg(long, help_heading = "Medium")]
+    pub(crate) polarity: Option<PolarityArg>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct MethodArgs {
+    /// How distances are found: read from heat, or exactly.
+    #[arg(long, default_value = "normalized", help_heading = "Distance")]
+    pub(crate) estimator: EstimatorArg,
+    /// Exact distances end here, in physical units: all beyond is not reached [default: no end].
+    #[arg(long, value_name = "D", allow_negative_numbers = true, help_heading = "Distance")]
+    pub(crate) farthest: Option<f64>,
+    /// How many threads work [default: one per processor].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        hide_default_value = true,
+        help_heading = "Distance"
+    )]
+    pub(crate) threads: usize,
+    #[command(flatten)]
+    pub(crate) heat: HeatArgs,
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct HeatArgs {
-    /// How heat flows: in many small steps, or in one long step.
-    #[arg(long, default_value = "explicit", help_heading = "Heat")]
-    pub(crate) solver: SolverArg,
+    /// How heat flows, in many small steps or in one long step [default: explicit].
+    #[arg(long, help_heading = "Heat")]
+    pub(crate) solver: Option<SolverArg>,
     /// How many time steps [default: explicit heat, which moves one pixel a step, takes twice the
     /// longest side in pictures and three times in volumes; implicit heat takes 1].
     #[arg(long, value_name = "N", help_heading = "Heat")]
@@ -239,24 +272,13 @@ pub(crate) struct HeatArgs {
         help_heading = "Heat"
     )]
     pub(crate) step: Option<StepArg>,
-    /// The most memory that implicit heat may take, in GiB [default: 4].
+    /// The most memory that implicit heat and the heat method may take, in GiB [default: 4].
     #[arg(long, value_name = "GIB", allow_negative_numbers = true, help_heading = "Heat")]
     pub(crate) memory: Option<f64>,
-    /// The mean that makes the coefficient of a face from those of its two pixels.
-    #[arg(long, default_value = "harmonic", help_heading = "Heat")]
-    pub(crate) face_mean: FaceMeanArg,
-    /// How heat is read as a distance.
-    #[arg(long, default_value = "normalized", help_heading = "Heat")]
-    pub(crate) estimator: EstimatorArg,
-    /// How many threads work [default: one per processor].
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 0,
-        hide_default_value = true,
-        help_heading = "Heat"
-    )]
-    pub(crate) threads: usize,
+    /// The mean that makes the coefficient of a face from those of its two pixels [default:
+    /// harmonic].
+    #[arg(long, help_heading = "Heat")]
+    pub(crate) face_mean: Option<FaceMeanArg>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -298,8 +320,29 @@ pub(crate) enum MediumArg {
     Combined,
     /// Edges and thin lines, eq. (11).
     Edges,
+    /// Along the directions of the image, eqs. (12) to (14).
+    Tensor,
+    /// Tubes: bright or dark lines and vessels.
+    Vesselness,
     /// The field in --medium-file.
     File,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum DirectionsArg {
+    /// Along the tubes that second derivatives show.
+    Hessian,
+    /// Along the lines that the structure tensor shows, averaged over twice --scale.
+    Structure,
+    /// Along the curves of equal grey value.
+    Gradient,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PolarityArg {
+    Bright,
+    Dark,
+    Both,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -338,6 +381,12 @@ pub(crate) enum EstimatorArg {
     Varadhan,
     /// sqrt(-4 t log(u / u(source))), and the like of implicit heat: for lengths.
     Normalized,
+    /// The distances that grow in the direction from which heat comes: a short implicit step, then a
+    /// Poisson equation. Of the options of heat it takes --memory, and --time in multiples of a
+    /// pixel squared over the mean of k D [default: 1].
+    HeatMethod,
+    /// The exact weighted distance, without heat: the eikonal equation by fast marching.
+    Eikonal,
 }
 
 #[derive(Clone, Copy, Debug)]

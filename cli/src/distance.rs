@@ -2,9 +2,10 @@
 
 use crate::args::DistanceArgs;
 use crate::failure::Failure;
-use crate::heat::{Outcome, Plan, flow};
 use crate::input::{Input, Picture, size_text};
 use crate::output;
+use crate::solve::{Outcome, Plan, solve};
+use heatpath_core::grid::heat::Heat;
 use heatpath_io::{FieldFormat, FieldStyle, ImageFile, Overlay, write_field, write_overlay};
 use serde::Serialize;
 use std::time::Instant;
@@ -18,13 +19,15 @@ struct Report {
     mean: f64,
     reached: usize,
     unreached: usize,
-    iterations: usize,
-    time: f64,
-    step: f64,
+    /// This, the time, the step and the solver are those of heat, if distances are read from it.
+    iterations: Option<usize>,
+    time: Option<f64>,
+    step: Option<f64>,
     seconds: Seconds,
     threads: usize,
     simd: &'static str,
-    solver: &'static str,
+    solver: Option<&'static str>,
+    estimator: &'static str,
 }
 
 #[derive(Serialize)]
@@ -39,7 +42,7 @@ pub(crate) fn distance(args: &DistanceArgs) -> Result<(), Failure> {
     let start = Instant::now();
     output::check(args.output.as_deref(), &FieldFormat::ENDINGS, &args.out)?;
     let given = &args.sources.points;
-    let plan = Plan::new(&args.heat)?;
+    let plan = Plan::new(&args.method)?;
     match Input::read(&args.picture, &[&given.source])? {
         Input::Picture(file) => distance_in::<2>(args, &plan, file, start),
         Input::Volume(file) => distance_in::<3>(args, &plan, file, start),
@@ -57,9 +60,12 @@ fn distance_in<const D: usize>(
     let given = &args.sources.points;
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let medium_start = Instant::now();
-    let medium = picture.medium(&args.medium, &sources)?;
+    let medium = picture.medium(&args.medium, &sources, args.method.threads)?;
     let medium_seconds = medium_start.elapsed().as_secs_f64();
-    let outcome = flow(&medium, &sources, plan, false, args.out.quiet)?;
+    let outcome = solve(&medium, &sources, &[], plan, args.out.quiet)?;
+    if outcome.distances.reached().next().is_none() {
+        return Err(Failure::no_answer("no pixel lies as near to a source as --farthest"));
+    }
     // === Write
     let field = outcome.distances.field();
     if let Some(output) = &args.output {
@@ -78,31 +84,36 @@ fn distance_in<const D: usize>(
     if args.out.json {
         output::print_json(&report)?;
     }
-    let Report { size, min, max, mean, reached, unreached, iterations, .. } = report;
-    output::tell(
-        &args.out,
-        &format!(
-            "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, \
-             {unreached} not; {iterations} iterations in {:.2} s",
-            size_text(size),
-            report.seconds.heat
-        ),
-    );
+    output::tell(&args.out, &line(&report));
     Ok(())
 }
 
-fn report<const D: usize>(outcome: &Outcome<D>, plan: &Plan, open_cells: usize) -> Report {
-    let reached = outcome.distances.reached().count();
+/// The report in words.
+fn line(report: &Report) -> String {
+    let Report { size, min, max, mean, reached, unreached, iterations, seconds, .. } = report;
+    let work = match iterations {
+        Some(iterations) => format!("{iterations} iterations in {:.2} s", seconds.heat),
+        None => format!("exact, in {:.2} s", seconds.distance),
+    };
+    format!(
+        "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, \
+         {unreached} not; {work}",
+        size_text(size)
+    )
+}
+
+fn report<const D: usize>(outcome: &Outcome<'_, D>, plan: &Plan, open_cells: usize) -> Report {
+    let (reached, heat) = (outcome.distances.reached().count(), outcome.heat.as_ref());
     Report {
-        size: outcome.heat.shape().size().to_vec(),
+        size: outcome.distances.shape().size().to_vec(),
         min: outcome.distances.reached().fold(f64::INFINITY, f64::min),
         max: outcome.distances.reached().fold(0.0, f64::max),
         mean: outcome.distances.reached().sum::<f64>() / reached as f64,
         reached,
         unreached: open_cells - reached,
-        iterations: outcome.heat.iterations(),
-        time: outcome.heat.time(),
-        step: outcome.heat.step(),
+        iterations: heat.map(Heat::iterations),
+        time: heat.map(Heat::time),
+        step: heat.map(Heat::step),
         seconds: Seconds {
             medium: 0.0,
             heat: outcome.heat_seconds,
@@ -112,5 +123,6 @@ fn report<const D: usize>(outcome: &Outcome<D>, plan: &Plan, open_cells: usize) 
         threads: outcome.threads,
         simd: outcome.simd,
         solver: plan.solver(),
+        estimator: plan.estimator,
     }
 }

@@ -1,6 +1,7 @@
 //! What went wrong, and the exit code for it.
 
 use heatpath_core::exec::ThreadsError;
+use heatpath_core::grid::distance::{EikonalError, HeatMethodError};
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::{PointError, ShapeError};
@@ -86,6 +87,7 @@ impl From<MediumError> for Failure {
     fn from(error: MediumError) -> Self {
         match error {
             MediumError::Parameter { .. } | MediumError::Smoothing(_) => Self::usage(error),
+            MediumError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
             _ => Self::bad_input(error),
         }
     }
@@ -125,6 +127,29 @@ impl From<ImplicitError> for Failure {
             }
             ImplicitError::Linear(_) => Self::no_answer(error),
             _ => Self::usage(error),
+        }
+    }
+}
+
+impl From<EikonalError> for Failure {
+    fn from(error: EikonalError) -> Self {
+        match error {
+            EikonalError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            EikonalError::Target(error) => error.into(),
+            EikonalError::TooLarge { .. } => Self::bad_input(error),
+            EikonalError::InitialCount { .. } | EikonalError::Initial { .. } => Self::usage(error),
+        }
+    }
+}
+
+impl From<HeatMethodError> for Failure {
+    fn from(error: HeatMethodError) -> Self {
+        match error {
+            HeatMethodError::Implicit(error) => error.into(),
+            HeatMethodError::Medium(error) => error.into(),
+            HeatMethodError::Point(error) => error.into(),
+            HeatMethodError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            HeatMethodError::Tensor => Self::usage(error),
         }
     }
 }

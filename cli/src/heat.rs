@@ -1,6 +1,6 @@
-//! Heat, with a progress bar and an answer to Ctrl-C.
+//! Heat, as the options ask for it.
 
-use crate::args::{EstimatorArg, FaceMeanArg, HeatArgs, SolverArg, StepArg};
+use crate::args::{FaceMeanArg, HeatArgs, SolverArg, StepArg};
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
@@ -9,17 +9,17 @@ use heatpath_core::grid::heat::{
     Duration, Explicit, FaceMean, Heat, HeatOptions, HeatSolver, Implicit, ImplicitOptions, Step,
 };
 use heatpath_core::grid::medium::Medium;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
-/// What the options of a command ask for.
-pub(crate) struct Plan {
+/// How heat flows, and how it is read as a distance.
+pub(crate) struct HeatPlan {
     solver: Solver,
-    estimator: EstimatorArg,
-    threads: usize,
+    readout: Readout,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Readout {
+    Varadhan,
+    Normalized,
 }
 
 enum Solver {
@@ -27,14 +27,14 @@ enum Solver {
     Implicit(ImplicitOptions),
 }
 
-impl Plan {
+impl HeatPlan {
     /// Refuses options that do not go together.
-    pub(crate) fn new(args: &HeatArgs) -> Result<Self, Failure> {
+    pub(crate) fn new(args: &HeatArgs, readout: Readout) -> Result<Self, Failure> {
         let solver = match args.solver {
-            SolverArg::Explicit => Solver::Explicit(explicit(args)?),
-            SolverArg::Implicit => Solver::Implicit(implicit(args)?),
+            None | Some(SolverArg::Explicit) => Solver::Explicit(explicit(args)?),
+            Some(SolverArg::Implicit) => Solver::Implicit(implicit(args)?),
         };
-        Ok(Self { solver, estimator: args.estimator, threads: args.threads })
+        Ok(Self { solver, readout })
     }
 
     /// The name of the solver.
@@ -45,14 +45,15 @@ impl Plan {
         }
     }
 
-    fn heat<const D: usize>(
+    /// Lets heat flow; keeps its `exposure` for paths if asked to.
+    pub(crate) fn flow<const D: usize>(
         &self,
         medium: &Medium<D>,
         sources: &Sources<D>,
         exposure: bool,
         exec: &Exec,
     ) -> Result<Heat<D>, Failure> {
-        let balanced = self.estimator == EstimatorArg::Normalized;
+        let balanced = self.readout == Readout::Normalized;
         match self.solver {
             Solver::Explicit(options) => {
                 let explicit = Explicit::new(medium, HeatOptions { exposure, ..options })?;
@@ -63,6 +64,28 @@ impl Plan {
             }
         }
     }
+
+    /// Reads heat that has flowed as distances.
+    pub(crate) fn read<const D: usize>(&self, heat: &Heat<D>) -> DistanceMap<D> {
+        match self.readout {
+            Readout::Varadhan => varadhan(heat),
+            Readout::Normalized => normalized(heat),
+        }
+    }
+}
+
+/// The first option of heat that was given and is not among `allowed`.
+pub(crate) fn given(args: &HeatArgs, allowed: &[&str]) -> Option<&'static str> {
+    let options = [
+        ("--solver", args.solver.is_some()),
+        ("--iterations", args.iterations.is_some()),
+        ("--time", args.time.is_some()),
+        ("--step", args.step.is_some()),
+        ("--memory", args.memory.is_some()),
+        ("--face-mean", args.face_mean.is_some()),
+    ];
+    let given = options.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name);
+    given.into_iter().find(|name| !allowed.contains(name))
 }
 
 fn explicit(args: &HeatArgs) -> Result<HeatOptions, Failure> {
@@ -95,16 +118,7 @@ fn implicit(args: &HeatArgs) -> Result<ImplicitOptions, Failure> {
         ));
     }
     let usual = ImplicitOptions::default();
-    let memory_limit = match args.memory {
-        None => usual.memory_limit,
-        // More than there is becomes the largest number there is.
-        Some(gibibytes) if gibibytes > 0.0 => (gibibytes * f64::from(1 << 30)) as usize,
-        Some(gibibytes) => {
-            return Err(Failure::usage(format!(
-                "--memory is {gibibytes}; it must be a positive number of GiB"
-            )));
-        }
-    };
+    let memory_limit = memory_limit(args, usual.memory_limit)?;
     Ok(ImplicitOptions {
         time: args.time.unwrap_or(usual.time),
         steps: args.iterations.unwrap_or(usual.steps),
@@ -113,73 +127,21 @@ fn implicit(args: &HeatArgs) -> Result<ImplicitOptions, Failure> {
     })
 }
 
-fn face_mean(args: &HeatArgs) -> FaceMean {
-    match args.face_mean {
-        FaceMeanArg::Arithmetic => FaceMean::Arithmetic,
-        FaceMeanArg::Harmonic => FaceMean::Harmonic,
+/// --memory in bytes.
+pub(crate) fn memory_limit(args: &HeatArgs, usual: usize) -> Result<usize, Failure> {
+    match args.memory {
+        None => Ok(usual),
+        // More than there is becomes the largest number there is.
+        Some(gibibytes) if gibibytes > 0.0 => Ok((gibibytes * f64::from(1 << 30)) as usize),
+        Some(gibibytes) => Err(Failure::usage(format!(
+            "--memory is {gibibytes}; it must be a positive number of GiB"
+        ))),
     }
 }
 
-/// Heat that has flowed, the distances read from it, and how long both took.
-pub(crate) struct Outcome<const D: usize> {
-    pub(crate) heat: Heat<D>,
-    pub(crate) distances: DistanceMap<D>,
-    pub(crate) heat_seconds: f64,
-    pub(crate) distance_seconds: f64,
-    pub(crate) threads: usize,
-    pub(crate) simd: &'static str,
-}
-
-/// Lets heat flow from `sources` through `medium` and reads it as distances; keeps its `exposure` for
-/// paths if asked to.
-pub(crate) fn flow<const D: usize>(
-    medium: &Medium<D>,
-    sources: &[[f64; D]],
-    plan: &Plan,
-    exposure: bool,
-    quiet: bool,
-) -> Result<Outcome<D>, Failure> {
-    let sources = Sources::new(sources, medium.mask())?;
-    let bar = progress_bar(quiet);
-    let interrupted = interruption();
-    let exec = Exec::new(plan.threads)?.with_watch(|finished| {
-        bar.set_position((finished * 1000.0) as u64);
-        if interrupted.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    let start = Instant::now();
-    let heat = plan.heat(medium, &sources, exposure, &exec);
-    bar.finish_and_clear();
-    let heat = heat?;
-    let heat_seconds = start.elapsed().as_secs_f64();
-    let start = Instant::now();
-    let distances = match plan.estimator {
-        EstimatorArg::Varadhan => varadhan(&heat),
-        EstimatorArg::Normalized => normalized(&heat),
-    };
-    let distance_seconds = start.elapsed().as_secs_f64();
-    let (threads, simd) = (exec.threads(), exec.simd().name());
-    Ok(Outcome { heat, distances, heat_seconds, distance_seconds, threads, simd })
-}
-
-/// A bar on standard error; indicatif shows it on terminals only.
-fn progress_bar(quiet: bool) -> ProgressBar {
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style =
-        ProgressStyle::with_template("heat [{bar:40}] {percent:>3} % {elapsed} (left: {eta})");
-    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ");
-    ProgressBar::with_draw_target(Some(1000), target).with_style(style)
-}
-
-/// A flag that Ctrl-C and requests to terminate set.
-fn interruption() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&flag);
-    // Without a handler an interruption ends the process at once, which leaves no partial file
-    // either: outputs are renamed when complete.
-    drop(ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed)));
-    flag
+fn face_mean(args: &HeatArgs) -> FaceMean {
+    match args.face_mean {
+        Some(FaceMeanArg::Arithmetic) => FaceMean::Arithmetic,
+        None | Some(FaceMeanArg::Harmonic) => FaceMean::Harmonic,
+    }
 }

@@ -1,15 +1,18 @@
 //! From the command line to the nouns of the engine.
 
 use crate::args::{
-    ChannelArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, Numbers, OptionalSourceArgs,
-    PictureArgs,
+    ChannelArg, DirectionsArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, Numbers,
+    OptionalSourceArgs, PictureArgs, PolarityArg,
 };
 use crate::failure::Failure;
+use heatpath_core::Exec;
+use heatpath_core::grid::filter::{Polarity, Tubes};
 use heatpath_core::grid::medium::{
-    self, ConductivityOptions, EdgeStop, EdgesOptions, Form, Medium, PeronaMalikOptions,
+    self, ConductivityOptions, Directions, EdgeStop, EdgesOptions, Form, Medium,
+    PeronaMalikOptions, TensorOptions, VesselnessOptions,
 };
 use heatpath_core::grid::{Grid, Mask, Shape, check_points};
-use heatpath_io::{Channel, ImageFile, PictureOptions, read_field, read_mask, read_points};
+use heatpath_io::{Channel, ImageFile, PictureOptions, read_mask, read_points};
 use std::path::Path;
 
 /// The names of the coordinates.
@@ -107,11 +110,16 @@ impl<'a, const D: usize> Picture<'a, D> {
         &self,
         args: &MediumArgs,
         sources: &[[f64; D]],
+        threads: usize,
     ) -> Result<Medium<D>, Failure> {
         let image = &self.image;
         let divergence = form(args, Form::Divergence);
         let smoothing = self.smoothing(args.smooth);
-        let conductivity = ConductivityOptions { power: args.power, floor: args.floor };
+        let usual = ConductivityOptions::default();
+        let conductivity = ConductivityOptions {
+            power: args.power.unwrap_or(usual.power),
+            floor: args.floor.unwrap_or(usual.floor),
+        };
         let perona_malik = PeronaMalikOptions {
             contrast: args.contrast,
             edge_stop: match args.edge_stop {
@@ -132,23 +140,75 @@ impl<'a, const D: usize> Picture<'a, D> {
                 medium::combined(image, &references, conductivity, perona_malik)?
             }
             MediumArg::Edges => {
-                let options = EdgesOptions { floor: args.floor, smoothing, form: divergence };
+                let options =
+                    EdgesOptions { floor: conductivity.floor, smoothing, form: divergence };
                 medium::edges(image, options)?
+            }
+            MediumArg::Tensor => {
+                medium::tensor(image, self.tensor_options(args)?, &Exec::new(threads)?)?
+            }
+            MediumArg::Vesselness => {
+                medium::vesselness(image, &self.vesselness_options(args), &Exec::new(threads)?)?
             }
             MediumArg::File => self.given_medium(args)?,
         };
         Ok(medium.with_walls(self.mask.clone())?)
     }
 
+    fn tensor_options(&self, args: &MediumArgs) -> Result<TensorOptions, Failure> {
+        let usual = TensorOptions::default();
+        let sigma = match args.scale.as_slice() {
+            [] => 2.0,
+            [sigma] => self.smoothing(*sigma),
+            _ => return Err(Failure::usage("--scale: `--medium tensor` takes one number")),
+        };
+        let directions = match args.tensor {
+            DirectionsArg::Hessian => {
+                Directions::Hessian { sigma, polarity: polarity(args).unwrap_or(Polarity::Both) }
+            }
+            DirectionsArg::Structure => Directions::Structure { sigma, rho: 2.0 * sigma },
+            DirectionsArg::Gradient => Directions::Gradient { sigma },
+        };
+        let anisotropy = args.anisotropy.unwrap_or(usual.anisotropy);
+        Ok(TensorOptions { directions, anisotropy, ..usual })
+    }
+
+    fn vesselness_options(&self, args: &MediumArgs) -> VesselnessOptions {
+        let usual = VesselnessOptions::default();
+        let scales: Vec<f64> = args.scale.iter().map(|&sigma| self.smoothing(sigma)).collect();
+        VesselnessOptions {
+            power: args.power.unwrap_or(usual.power),
+            floor: args.floor.unwrap_or(usual.floor),
+            anisotropy: args.anisotropy.unwrap_or(usual.anisotropy),
+            tubes: Tubes {
+                polarity: polarity(args).unwrap_or(usual.tubes.polarity),
+                scales: if scales.is_empty() { usual.tubes.scales } else { scales },
+                ..usual.tubes
+            },
+        }
+    }
+
     fn given_medium(&self, args: &MediumArgs) -> Result<Medium<D>, Failure> {
-        let file = args.medium_file.as_deref();
-        let Some(file) = file else {
+        let Some(path) = args.medium_file.as_deref() else {
             return Err(Failure::usage("`--medium file` needs --medium-file"));
         };
-        let field = read_field(file, self.image.shape().spacing())?;
-        check_size(Some(file), field.shape(), self.image.shape())?;
-        medium::given(field, form(args, Form::Pointwise))
-            .map_err(|error| Failure::bad_input(format!("{}: {error}", file.display())))
+        let shape = self.image.shape();
+        let file = ImageFile::read(path)?;
+        let medium = if file.has_tensors(D) {
+            if matches!(args.form, Some(FormArg::Pointwise)) {
+                let message =
+                    "--form pointwise needs a field of numbers, but this one is of tensors";
+                return Err(Failure::usage(format!("{}: {message}", path.display())));
+            }
+            let field = file.into_tensors(shape.spacing())?;
+            check_size(Some(path), field.shape(), shape)?;
+            medium::given_tensor(field)
+        } else {
+            let field = file.into_field(shape.spacing())?;
+            check_size(Some(path), field.shape(), shape)?;
+            medium::given(field, form(args, Form::Pointwise))
+        };
+        medium.map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
     }
 
     /// The grey values that eq. (6) compares with.
@@ -162,11 +222,19 @@ impl<'a, const D: usize> Picture<'a, D> {
         }
     }
 
-    /// --smooth in cells.
+    /// --smooth and --scale in cells.
     fn smoothing(&self, sigma: f64) -> f64 {
         let unit = if self.args.physical { self.image.shape().smallest_spacing() } else { 1.0 };
         sigma / unit
     }
+}
+
+fn polarity(args: &MediumArgs) -> Option<Polarity> {
+    args.polarity.map(|polarity| match polarity {
+        PolarityArg::Bright => Polarity::Bright,
+        PolarityArg::Dark => Polarity::Dark,
+        PolarityArg::Both => Polarity::Both,
+    })
 }
 
 fn form(args: &MediumArgs, usual: Form) -> Form {

@@ -1,19 +1,23 @@
 //! The `heatpath` command.
 //!
 //! `args.rs` describes the command line, each subcommand has a file with a function of its name,
-//! and what several of them need stands beside: what is read (`input.rs`), the heat with its
-//! progress bar (`heat.rs`), what is written (`output.rs`) and what went wrong (`failure.rs`).
+//! and what several of them need stands beside: what is read (`input.rs`), the distances with their
+//! progress bar (`solve.rs`, by `heat.rs` or `eikonal.rs`), what is written (`output.rs`) and what
+//! went wrong (`failure.rs`).
 
 mod args;
 mod completions;
 mod distance;
+mod eikonal;
 mod failure;
 mod heat;
+mod heat_method;
 mod info;
 mod input;
 mod medium;
 mod output;
 mod path;
+mod solve;
 
 use args::{Args, Command};
 use clap::Parser;

@@ -28,7 +28,7 @@ fn medium_in<const D: usize>(args: &MediumCommandArgs, file: ImageFile) -> Resul
     output::check_dimension(args.output.as_deref(), &args.out, D)?;
     let picture = Picture::<D>::new(&args.picture, file)?;
     let sources = picture.optional_sources(&args.sources)?;
-    let field = picture.medium(&args.medium, &sources)?.speed_sq_field();
+    let field = picture.medium(&args.medium, &sources, 0)?.speed_sq_field();
     if let Some(output) = &args.output {
         let style = FieldStyle { title: Some("k D".to_owned()) };
         write_field(output, args.out.format.as_deref(), args.out.force, &field, &style)?;

@@ -2,17 +2,17 @@
 
 use crate::args::PathArgs;
 use crate::failure::Failure;
-use crate::heat::{Plan, flow};
 use crate::input::{Input, Picture};
 use crate::output;
-use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
+use crate::solve::{Plan, solve};
+use heatpath_core::grid::path::{Ending, Path, PathOptions};
 use heatpath_io::curves::ending_name;
 use heatpath_io::{Curves, ImageFile, Overlay, curves_json, write_curves, write_overlay};
 
 pub(crate) fn path(args: &PathArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
     let given = &args.sources.points;
-    let plan = Plan::new(&args.heat)?;
+    let plan = Plan::new(&args.method)?;
     match Input::read(&args.picture, &[&given.source, &args.end])? {
         Input::Picture(file) => path_in::<2>(args, &plan, file),
         Input::Volume(file) => path_in::<3>(args, &plan, file),
@@ -25,9 +25,9 @@ fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Res
     let given = &args.sources.points;
     let sources = picture.points("source", &given.source, given.sources.as_deref())?;
     let ends = picture.points("end", &args.end, args.ends.as_deref())?;
-    let medium = picture.medium(&args.medium, &sources)?;
-    let outcome = flow(&medium, &sources, plan, true, args.out.quiet)?;
-    let descent = Descent::new(&outcome.heat)?;
+    let medium = picture.medium(&args.medium, &sources, args.method.threads)?;
+    let outcome = solve(&medium, &sources, &ends, plan, args.out.quiet)?;
+    let descent = outcome.descent()?;
     let paths = ends
         .iter()
         .map(|&end| descent.path(end, &outcome.distances, PathOptions::default()))
@@ -49,7 +49,7 @@ fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Res
     for (number, path) in curves.paths.iter().enumerate() {
         output::tell(&args.out, &line(number, path));
     }
-    complain_of_missing(&curves.paths)
+    complain_of_missing(&curves.paths, plan)
 }
 
 /// One path in words.
@@ -66,7 +66,7 @@ fn line<const D: usize>(number: usize, path: &Path<D>) -> String {
 }
 
 /// Paths that ended nowhere are written with the others, but they are no answer.
-fn complain_of_missing<const D: usize>(paths: &[Path<D>]) -> Result<(), Failure> {
+fn complain_of_missing<const D: usize>(paths: &[Path<D>], plan: &Plan) -> Result<(), Failure> {
     let missing: Vec<(usize, Ending)> = paths
         .iter()
         .enumerate()
@@ -79,7 +79,7 @@ fn complain_of_missing<const D: usize>(paths: &[Path<D>]) -> Result<(), Failure>
     let reason = match ending {
         Ending::Source(_) => "it did",
         Ending::Unreachable => "walls separate it from every source",
-        Ending::NotReached => "no heat has arrived there; use more --iterations",
+        Ending::NotReached => plan.not_reached(),
         Ending::StepLimit => "the tracer took its largest number of steps",
     };
     Err(Failure::no_answer(format!(

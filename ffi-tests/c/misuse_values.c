@@ -81,10 +81,12 @@ static void wrong_options(void)
 {
     hp_options options = defaults();
     REFUSE(0, threads, 1, HP_INVALID_ARGUMENT, "medium is 0");
-    REFUSE(7, threads, 1, HP_INVALID_ARGUMENT, "medium is 7");
+    REFUSE(8, threads, 1, HP_INVALID_ARGUMENT, "medium is 8");
     REFUSE(HP_MEDIUM_COMBINED, edge_stop, 0, HP_INVALID_ARGUMENT, "edge_stop is 0");
     REFUSE(HP_MEDIUM_EDGES, form, 3, HP_INVALID_ARGUMENT, "form is 3");
     REFUSE(HP_MEDIUM_UNIFORM, estimator, 0, HP_INVALID_ARGUMENT, "estimator is 0");
+    REFUSE(HP_MEDIUM_GIVEN_TENSOR, threads, 1, HP_INVALID_ARGUMENT, "tensor is NULL");
+    REFUSE(HP_MEDIUM_GIVEN_TENSOR, tensor, source, HP_INVALID_ARGUMENT, "tensor_count is 0");
     REFUSE(HP_MEDIUM_UNIFORM, threads, 5000, HP_INVALID_ARGUMENT, "at most 1024");
     REFUSE(HP_MEDIUM_CONDUCTIVITY, power, -1, HP_INVALID_ARGUMENT, "power is -1");
     REFUSE(HP_MEDIUM_CONDUCTIVITY, floor, NAN, HP_INVALID_ARGUMENT, "floor is NaN");

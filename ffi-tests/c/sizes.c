@@ -19,6 +19,9 @@ int main(void)
     AT(hp_options, solver);
     AT(hp_options, reference);
     AT(hp_options, memory);
+    AT(hp_options, farthest);
+    AT(hp_options, tensor);
+    AT(hp_options, tensor_count);
     SIZE(hp_path_info);
     AT(hp_path_info, source);
     AT(hp_path_info, distance);

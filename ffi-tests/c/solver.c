@@ -28,10 +28,11 @@ static hp_solver *made(const hp_options *options)
 static void maps_of(uint32_t kind, uint32_t estimator)
 {
     hp_options options = with(kind);
-    hp_solver *solver = made(&options);
+    hp_solver *solver;
     uint32_t threads;
     int i;
     options.estimator = estimator;
+    solver = made(&options);
     for (i = 0; i < SOURCES; i++) {
         hp_buffer one = buffer_of(expected[i], HP_F64);
         EXPECT(HP_OK, "", hp_distance(&image, &mask, sources + 2 * i, 1, &options, &one));
@@ -103,6 +104,24 @@ static void paths_of_implicit_heat(void)
     EXPECT(HP_OK, "", hp_paths_info(paths, 0, &info));
     CHECK(info.ending == HP_ENDED_SOURCE && info.length > 20 && info.length < 30);
     hp_paths_free(paths);
+}
+
+/* A solver is for heat or for exact distances, and knows it. */
+static void kinds_of_solvers(void)
+{
+    hp_options options = with(HP_SOLVER_EXPLICIT);
+    hp_solver *heat = made(&options), *exact;
+    options.estimator = HP_EIKONAL;
+    exact = made(&options);
+    EXPECT(HP_INVALID_ARGUMENT, "HP_EIKONAL, but the solver was made for heat",
+           hp_solver_distances(heat, sources, SOURCES, &options, &first, 0));
+    EXPECT(HP_OK, "", hp_solver_distances(exact, sources, SOURCES, &options, &first, 0));
+    memcpy(expected, maps, sizeof maps);
+    memset(maps, 0, sizeof maps);
+    EXPECT(HP_OK, "", hp_solver_distances(exact, sources, SOURCES, NULL, &first, 0));
+    CHECK(memcmp(maps, expected, sizeof maps) == 0);
+    hp_solver_free(heat);
+    hp_solver_free(exact);
 }
 
 static void refuse(int line, const hp_options *options, hp_status status, const char *words)
@@ -202,10 +221,9 @@ static int watch(double finished, void *user)
 }
 
 /* How often a call asks whether to go on. */
-static int calls(const hp_solver *solver, uint32_t kind, int stop_at, hp_status wanted)
+static int calls(const hp_solver *solver, hp_options options, int stop_at, hp_status wanted)
 {
     struct watcher watcher = {0, 0, 0};
-    hp_options options = with(kind);
     hp_solver *other = NULL;
     watcher.stop_at = stop_at;
     options.progress = watch;
@@ -221,17 +239,19 @@ static int calls(const hp_solver *solver, uint32_t kind, int stop_at, hp_status 
     return watcher.calls;
 }
 
-static void cancelling(uint32_t kind)
+static void cancelling(uint32_t kind, uint32_t estimator)
 {
     hp_options options = with(kind);
-    hp_solver *solver = made(&options);
-    const hp_solver *of[2] = {NULL, solver};
+    const hp_solver *of[2] = {NULL, NULL};
+    hp_solver *solver;
     int i, stop_at;
+    options.estimator = estimator;
+    of[1] = solver = made(&options);
     for (i = 0; i < 2; i++) {
-        const int all = calls(of[i], kind, 0, HP_OK);
+        const int all = calls(of[i], options, 0, HP_OK);
         CHECK(all >= 1);
         for (stop_at = 1; stop_at <= all; stop_at++)
-            CHECK(calls(of[i], kind, stop_at, HP_CANCELLED) == stop_at);
+            CHECK(calls(of[i], options, stop_at, HP_CANCELLED) == stop_at);
     }
     hp_solver_free(solver);
 }
@@ -250,12 +270,15 @@ int main(void)
     maps_of(HP_SOLVER_EXPLICIT, HP_VARADHAN);
     maps_of(HP_SOLVER_IMPLICIT, HP_NORMALIZED);
     maps_of(HP_SOLVER_IMPLICIT, HP_VARADHAN);
+    maps_of(HP_SOLVER_EXPLICIT, HP_EIKONAL);
+    kinds_of_solvers();
     maps_with_gaps();
     volumes();
     paths_of_implicit_heat();
     wrong_creation();
     wrong_use();
-    cancelling(HP_SOLVER_EXPLICIT);
-    cancelling(HP_SOLVER_IMPLICIT);
+    cancelling(HP_SOLVER_EXPLICIT, HP_NORMALIZED);
+    cancelling(HP_SOLVER_IMPLICIT, HP_NORMALIZED);
+    cancelling(HP_SOLVER_EXPLICIT, HP_EIKONAL);
     return failures != 0;
 }

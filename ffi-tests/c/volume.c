@@ -1,10 +1,11 @@
 /* Distances in a volume whose slices do not follow each other without gaps, as in a viewer that
  * shows a part of a larger one.
  *
- *     volume VOLUME WIDTH HEIGHT DEPTH SLICE_DISTANCE X Y Z DISTANCES
+ *     volume VOLUME WIDTH HEIGHT DEPTH SLICE_DISTANCE X Y Z DISTANCES ESTIMATOR
  *
  * VOLUME holds bytes, slice by slice and row by row. Writes the distance of every voxel from X, Y, Z
  * to the file DISTANCES, as doubles in the same order, and prints the path from the last voxel.
+ * ESTIMATOR is a number of the header.
  */
 #include "check.h"
 
@@ -14,6 +15,7 @@ enum { PADDING = 24, MOST = 64 };
 
 static unsigned size[3];
 static double slice_distance;
+static hp_options options;
 
 static hp_buffer describe(void *data, uint32_t type, size_t bytes)
 {
@@ -55,7 +57,7 @@ static void print_path(const hp_buffer *image, const double *source)
     uint64_t i;
     for (i = 0; i < 3; i++)
         end[i] = size[i] - 1;
-    EXPECT(HP_OK, "", hp_paths_create(image, NULL, source, 1, end, 1, NULL, &paths));
+    EXPECT(HP_OK, "", hp_paths_create(image, NULL, source, 1, end, 1, &options, &paths));
     info.struct_size = sizeof info;
     EXPECT(HP_OK, "", hp_paths_info(paths, 0, &info));
     CHECK(info.ending == HP_ENDED_SOURCE && info.physical_length > info.length);
@@ -71,9 +73,11 @@ int main(int argc, char **argv)
     hp_buffer image, distance;
     double source[3];
     int axis;
-    if (argc != 10)
+    if (argc != 11)
         return 1;
     slice_distance = atof(argv[5]);
+    EXPECT(HP_OK, "", hp_options_init(&options, sizeof options));
+    options.estimator = (uint32_t)atoi(argv[10]);
     for (axis = 0; axis < 3; axis++) {
         size[axis] = (unsigned)atoi(argv[2 + axis]);
         source[axis] = atof(argv[6 + axis]);
@@ -87,7 +91,7 @@ int main(int argc, char **argv)
     if (!image.data || !distance.data || !transfer(argv[1], "rb", &image, sizeof(uint8_t)))
         return 1;
     memset(distance.data, 0x55, bytes_of(&distance));
-    EXPECT(HP_OK, "", hp_distance(&image, NULL, source, 1, NULL, &distance));
+    EXPECT(HP_OK, "", hp_distance(&image, NULL, source, 1, &options, &distance));
     for (axis = 0; axis < PADDING; axis++)
         CHECK(((char *)distance.data)[size[0] * size[1] * sizeof(double) + axis] == 0x55);
     if (!transfer(argv[9], "wb", &distance, sizeof(double)))

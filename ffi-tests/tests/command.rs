@@ -69,9 +69,10 @@ fn write_volume(raw: &Path, npy: &Path) {
     std::fs::write(raw, voxels).unwrap();
 }
 
-#[test]
-fn the_c_program_and_the_command_agree_on_volumes() {
-    let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), "command_volume");
+/// With an estimator by its name for the command and its number for C.
+fn agree_on_volumes(estimator: &str, number: u32) {
+    let name = format!("command_volume_{estimator}");
+    let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), &name);
     let program = workshop.build("volume.c");
     let [volume, npy, csv] = ["v.npy", "d.npy", "p.csv"].map(|name| workshop.path(name));
     let [raw, distances] = ["v.raw", "d.raw"].map(|name| workshop.path(name));
@@ -80,7 +81,8 @@ fn the_c_program_and_the_command_agree_on_volumes() {
     let command = |name: &str, output: &Path, more: &[&str]| {
         let mut command = Command::new(&heatpath);
         command.arg(name).arg(&volume).args(["--spacing", "1,1,2.5", "--source", "4,5.25,3"]);
-        run(command.args(["--quiet", "-o"]).arg(output).args(more));
+        command.args(["--estimator", estimator, "--quiet", "-o"]).arg(output);
+        run(command.args(more));
     };
     command("distance", &npy, &[]);
     command("path", &csv, &["--end", "19,16,12"]);
@@ -92,7 +94,7 @@ fn the_c_program_and_the_command_agree_on_volumes() {
     let points: Vec<[f64; 3]> = points.collect();
     for mut program in [Command::new(&program), valgrind(&program)] {
         program.arg(&raw).args(SIZE.map(|n| n.to_string())).args(["2.5", "4", "5.25", "3"]);
-        let printed = text(&run(program.arg(&distances)));
+        let printed = text(&run(program.arg(&distances).arg(number.to_string())));
         let (raw, npy) = (std::fs::read(&distances).unwrap(), std::fs::read(&npy).unwrap());
         assert_eq!(raw.len(), SIZE.iter().product::<usize>() * 8);
         assert!(npy.ends_with(&raw), "the distances differ");
@@ -100,4 +102,14 @@ fn the_c_program_and_the_command_agree_on_volumes() {
         let coordinates: Vec<f64> = coordinates.map(|number| number.parse().unwrap()).collect();
         assert_eq!(coordinates, points.as_flattened(), "the paths differ");
     }
+}
+
+#[test]
+fn the_c_program_and_the_command_agree_on_heat_in_volumes() {
+    agree_on_volumes("normalized", heatpath::HP_NORMALIZED);
+}
+
+#[test]
+fn the_c_program_and_the_command_agree_on_exact_distances_in_volumes() {
+    agree_on_volumes("eikonal", heatpath::HP_EIKONAL);
 }

@@ -34,7 +34,7 @@ fn c_and_rust_agree_on_structs() {
         ($with:ident) => {
             $with! {
                 hp_buffer: data spacing;
-                hp_options: smoothing estimator user solver reference memory;
+                hp_options: smoothing estimator user solver reference memory farthest tensor tensor_count;
                 hp_path_info: source distance;
             }
         };

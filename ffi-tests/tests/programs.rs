@@ -103,6 +103,11 @@ fn a_prepared_solver_gives_the_same_maps() {
 }
 
 #[test]
+fn exact_distances_and_tensors() {
+    checks_itself("eikonal.c");
+}
+
+#[test]
 fn layouts_of_memory_change_no_bit() {
     checks_itself("layouts.c");
 }

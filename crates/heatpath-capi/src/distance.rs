@@ -7,7 +7,8 @@ use crate::problem::{Arguments, Problem};
 use crate::status::{Failure, guard, hp_status};
 use crate::view::{self, View};
 
-/// Computes the distance of every pixel from the nearest source, by letting heat flow.
+/// Computes the distance of every pixel from the nearest source, by letting heat flow or, with
+/// HP_EIKONAL, exactly.
 ///
 /// image: the picture or volume that makes the medium, see hp_options; any type of pixel. Its
 /// dimension, 2 or 3, is that of all other arguments.
@@ -22,8 +23,8 @@ use crate::view::{self, View};
 ///
 /// distance: receives the result; of the same size, HP_F32 or HP_F64, with any strides; it may be
 /// the memory of the image. Distances are in physical units (those of the image's spacing) where
-/// the medium is 1, and infinite in walls and wherever no heat has arrived. It is written only if
-/// HP_OK is returned.
+/// the medium is 1, and infinite in walls, wherever no heat has arrived and beyond
+/// hp_options.farthest. It is written only if HP_OK is returned.
 ///
 /// # Safety
 /// The structs are as large as their `struct_size` says, and buffers and points are as large as
@@ -59,10 +60,9 @@ unsafe fn write_distance<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     target.check_size(problem.mask().shape())?;
-    let flowed = problem.flow(1.0, false)?;
-    let distances = flowed.distances();
-    flowed.progress().check(1.0)?;
+    let solved = problem.solve(&[], 1.0)?;
+    problem.progress().check(1.0)?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
-    unsafe { pixels::write(&target, distances.field().values()) };
+    unsafe { pixels::write(&target, solved.distances.field().values()) };
     Ok(())
 }

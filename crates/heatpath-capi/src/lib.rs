@@ -9,7 +9,7 @@
 //! | `status` | what functions return, and the message that goes with it |
 //! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
 //! | `options` | medium, heat, estimator, threads and progress; `settings` checks them |
-//! | `distance`, `paths`, `solver` | the computations; `problem` and `prepared` are what they share |
+//! | `distance`, `paths`, `solver` | the computations; `problem`, `prepared` and `heat` are what they share |
 //! | `structs` | structs that begin with their size and grow at the end |
 //!
 //! Whatever a caller passes, a function answers with a status and never unwinds, prints, touches
@@ -22,6 +22,7 @@
 
 mod buffer;
 mod distance;
+mod heat;
 mod options;
 mod paths;
 mod pixels;

@@ -20,6 +20,11 @@ pub const HP_MEDIUM_EDGES: u32 = 5;
 /// The image itself is the medium, positive everywhere and not scaled. Lengths are
 /// ds / sqrt(image): a cost c per length is the image 1 / c^2.
 pub const HP_MEDIUM_GIVEN: u32 = 6;
+/// The medium is hp_options.tensor, one symmetric positive definite matrix for each pixel: the
+/// diffusion tensor D. Heat is fast along its eigenvectors of large eigenvalues, and lengths are
+/// sqrt(dx' D^-1 dx); a metric tensor must be inverted. Of the image only the size and spacing
+/// count; its data may be NULL.
+pub const HP_MEDIUM_GIVEN_TENSOR: u32 = 7;
 
 /// D = exp(-(|grad f| / contrast)^2). The default.
 pub const HP_EDGE_STOP_EXPONENTIAL: u32 = 1;
@@ -41,6 +46,10 @@ pub const HP_NORMALIZED: u32 = 1;
 /// sqrt(-4 t log u), Varadhan's formula as it stands, and -sqrt(t) log u of implicit heat: too long
 /// near the sources.
 pub const HP_VARADHAN: u32 = 2;
+/// The exact weighted distance, without heat: the eikonal equation by fast marching, to second order.
+/// What is about heat alone is ignored: iterations, time, step, solver and memory. It takes one
+/// thread.
+pub const HP_EIKONAL: u32 = 3;
 
 /// Many small time steps, for images of any size. The default.
 pub const HP_SOLVER_EXPLICIT: u32 = 0;
@@ -58,8 +67,8 @@ pub type hp_progress = Option<unsafe extern "C" fn(finished: f64, user: *mut c_v
 /// What to compute and how. NULL in place of it means all defaults.
 ///
 /// Fill it with hp_options_init(), then change fields. It is only read, and not kept; several
-/// threads may use the same one if its callback allows that. Parameters that the medium does not
-/// use are ignored.
+/// threads may use the same one if its callback allows that. Parameters that the medium or the
+/// estimator does not use are ignored.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct hp_options {
@@ -79,7 +88,7 @@ pub struct hp_options {
     /// For Perona-Malik and combined: HP_EDGE_STOP_EXPONENTIAL, the default, or
     /// HP_EDGE_STOP_RATIONAL.
     pub edge_stop: u32,
-    /// For all media but uniform and conductivity: one of HP_FORM_...
+    /// For all media but uniform, conductivity and given tensor: one of HP_FORM_...
     pub form: u32,
     /// For Perona-Malik, combined and edges: the standard deviation, in pixels, of the Gaussian
     /// before the gradient. 0, the default, is none.
@@ -101,7 +110,7 @@ pub struct hp_options {
     /// stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
     /// that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
     pub step: f64,
-    /// HP_NORMALIZED, the default, or HP_VARADHAN.
+    /// HP_NORMALIZED, the default, HP_VARADHAN or HP_EIKONAL.
     pub estimator: u32,
     /// The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
     /// thread alone. Results do not depend on it.
@@ -120,9 +129,18 @@ pub struct hp_options {
     /// For HP_SOLVER_IMPLICIT: the most bytes that the factorisation may take. 0, the default,
     /// stands for 4 GiB.
     pub memory: u64,
+    /// For HP_EIKONAL: the distance, in physical units, beyond which nothing is reached. 0, the
+    /// default, stands for no end.
+    pub farthest: f64,
+    /// For HP_MEDIUM_GIVEN_TENSOR: the components of the matrices in physical units, those of the
+    /// first pixel first, then x fastest: xx, xy, yy of each pixel of a picture and xx, xy, xz, yy,
+    /// yz, zz of a volume. They follow each other without gaps, and need not be aligned.
+    pub tensor: *const f64,
+    /// The number of these components: 3 or, in a volume, 6 for each pixel.
+    pub tensor_count: u64,
 }
 
-// SAFETY: integers, floats and pointers of which any can be NULL; pointers in pairs at the end.
+// SAFETY: integers, floats and pointers of which any can be NULL; an 8-byte number at the end.
 unsafe impl Versioned for hp_options {
     const NAME: &'static str = "hp_options";
     const SHORTEST: usize = 8;
@@ -150,6 +168,9 @@ unsafe impl Versioned for hp_options {
             reserved: 0,
             reference: f64::NAN,
             memory: 0,
+            farthest: 0.0,
+            tensor: std::ptr::null(),
+            tensor_count: 0,
         }
     }
 }

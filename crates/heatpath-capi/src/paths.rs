@@ -7,19 +7,20 @@ use crate::status::{Failure, guard, hp_status};
 use crate::structs::{self, Versioned, check_pointer};
 use crate::view;
 use heatpath_core::grid::check_points;
-use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
+use heatpath_core::grid::path::{Ending, Path, PathOptions};
 
 /// The path ends at a source.
 pub const HP_ENDED_SOURCE: u32 = 1;
 /// There is no path: walls separate the end point from every source.
 pub const HP_ENDED_UNREACHABLE: u32 = 2;
-/// There is no path: no heat has arrived at the end point. More iterations would bring it there.
+/// There is no path: no heat has arrived at the end point, and more iterations would bring it there;
+/// or it lies beyond hp_options.farthest.
 pub const HP_ENDED_NOT_REACHED: u32 = 3;
 /// The path was given up on the way, after more steps than the image should need.
 pub const HP_ENDED_STEP_LIMIT: u32 = 4;
 
-/// Heat's part in the progress of paths.
-const HEAT_SHARE: f64 = 0.9;
+/// The part of the distances in the progress of paths.
+const DISTANCE_SHARE: f64 = 0.9;
 
 /// Paths, one for each end point, in the order of the end points.
 ///
@@ -126,16 +127,15 @@ unsafe fn trace<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     check_points("end", ends, problem.mask())?;
-    let flowed = problem.flow(HEAT_SHARE, true)?;
-    let distances = flowed.distances();
-    let descent = Descent::new(&flowed.heat)?;
+    let solved = problem.solve(ends, DISTANCE_SHARE)?;
+    let descent = problem.descent(&solved)?;
     let mut paths = Vec::with_capacity(ends.len());
     for (number, &end) in ends.iter().enumerate() {
         let traced = number as f64 / ends.len() as f64;
-        flowed.progress().check(HEAT_SHARE + (1.0 - HEAT_SHARE) * traced)?;
-        paths.push(Traced::new(&descent.path(end, &distances, PathOptions::default())?));
+        problem.progress().check(DISTANCE_SHARE + (1.0 - DISTANCE_SHARE) * traced)?;
+        paths.push(Traced::new(&descent.path(end, &solved.distances, PathOptions::default())?));
     }
-    flowed.progress().check(1.0)?;
+    problem.progress().check(1.0)?;
     Ok(paths)
 }
 

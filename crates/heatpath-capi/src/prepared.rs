@@ -1,98 +1,105 @@
-//! Heat of either kind, ready to flow from any sources.
+//! Media made ready for distances from any sources, by any method.
 
-use crate::settings::{Estimator, Method};
+use crate::heat::{PreparedHeat, Readout, Solver};
 use crate::status::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
-use heatpath_core::grid::distance::{DistanceMap, normalized, normalized_each, varadhan};
-use heatpath_core::grid::heat::{Explicit, Heat, HeatOptions, HeatSolver, Implicit};
+use heatpath_core::grid::distance::{DistanceMap, Eikonal, EikonalOptions};
+use heatpath_core::grid::heat::Heat;
 use heatpath_core::grid::medium::Medium;
+use std::borrow::Cow;
 
-/// A medium in which heat can flow.
-pub(crate) enum Prepared<const D: usize> {
-    /// Checked only: what there is to prepare costs less than a step or two.
-    Explicit(Medium<D>, HeatOptions),
-    Implicit(Box<Implicit<'static, D>>),
+/// How distances are found.
+#[derive(Clone, Copy)]
+pub(crate) enum Method {
+    Heat(Solver),
+    Eikonal { farthest: f64 },
 }
 
-impl<const D: usize> Prepared<D> {
-    pub(crate) fn new(medium: Medium<D>, method: Method, exec: &Exec) -> Result<Self, Failure> {
-        match method {
-            Method::Explicit(options) => {
-                Explicit::new(&medium, options)?;
-                Ok(Self::Explicit(medium, options))
-            }
-            Method::Implicit(options) => {
-                Ok(Self::Implicit(Box::new(Implicit::new(medium, options, exec)?)))
-            }
-        }
-    }
+/// A medium in which distances can be found.
+pub(crate) enum Prepared<'a, const D: usize> {
+    Heat(PreparedHeat<'a, D>),
+    Eikonal { eikonal: Box<Eikonal<'a, D>>, farthest: f64 },
+}
 
-    pub(crate) fn medium(&self) -> &Medium<D> {
-        match self {
-            Self::Explicit(medium, _) => medium,
-            Self::Implicit(implicit) => implicit.medium(),
+/// Distances, and the heat that they were read from, if they were.
+pub(crate) struct Solved<const D: usize> {
+    pub(crate) heat: Option<Heat<D>>,
+    pub(crate) distances: DistanceMap<D>,
+}
+
+impl<'a, const D: usize> Prepared<'a, D> {
+    pub(crate) fn new(
+        medium: impl Into<Cow<'a, Medium<D>>>,
+        method: Method,
+        exec: &Exec,
+    ) -> Result<Self, Failure> {
+        match method {
+            Method::Heat(solver) => Ok(Self::Heat(PreparedHeat::new(medium.into(), solver, exec)?)),
+            Method::Eikonal { farthest } => {
+                let eikonal = Box::new(Eikonal::new(medium, exec)?);
+                Ok(Self::Eikonal { eikonal, farthest })
+            }
         }
     }
 
     /// How many maps are made together.
     pub(crate) fn round(&self, threads: usize) -> usize {
         match self {
-            Self::Explicit(..) => 1,
-            Self::Implicit(_) => 8 * threads,
+            Self::Heat(PreparedHeat::Implicit(_)) => 8 * threads,
+            Self::Heat(PreparedHeat::Explicit(..)) | Self::Eikonal { .. } => 1,
         }
     }
 
-    /// Lets heat flow from all sources together; paths need its exposure.
-    pub(crate) fn flow(
+    /// The distances from the nearest of the sources: all of them or, if there are `ends`, at least
+    /// those that paths from there need. A `readout` is needed for heat only.
+    pub(crate) fn solve(
         &self,
         sources: &Sources<D>,
-        estimator: Estimator,
-        exposure: bool,
+        ends: &[[f64; D]],
+        readout: Option<Readout>,
         exec: &Exec,
-    ) -> Result<Heat<D>, Failure> {
-        let balanced = estimator == Estimator::Normalized;
+    ) -> Result<Solved<D>, Failure> {
         match self {
-            Self::Explicit(medium, options) => {
-                let explicit = Explicit::new(medium, HeatOptions { exposure, ..*options })?;
-                Ok(explicit.flow_from(sources, balanced, exec)?)
+            Self::Heat(prepared) => {
+                let readout = needed(readout)?;
+                let heat = prepared.flow(sources, readout, !ends.is_empty(), exec)?;
+                Ok(Solved { distances: readout.read(&heat), heat: Some(heat) })
             }
-            Self::Implicit(implicit) => Ok(implicit.flow_from(sources, balanced, exec)?),
+            Self::Eikonal { eikonal, farthest } => {
+                let options = EikonalOptions {
+                    farthest: *farthest,
+                    targets: ends.to_vec(),
+                    ..EikonalOptions::default()
+                };
+                let distances = eikonal.distance(sources, &options, exec)?;
+                Ok(Solved { distances, heat: None })
+            }
         }
     }
 
-    /// Lets heat flow from each of several sources by itself.
-    pub(crate) fn flow_each(
+    /// The distances from each of several sources by itself.
+    pub(crate) fn solve_each(
         &self,
         sources: &[Sources<D>],
-        estimator: Estimator,
+        readout: Option<Readout>,
         exec: &Exec,
-    ) -> Result<Vec<Heat<D>>, Failure> {
+    ) -> Result<Vec<DistanceMap<D>>, Failure> {
         match self {
-            Self::Explicit(..) => {
-                sources.iter().map(|sources| self.flow(sources, estimator, false, exec)).collect()
-            }
-            Self::Implicit(implicit) => Ok(implicit.flow_many(sources, exec)?),
+            Self::Heat(prepared) => prepared.distances_each(sources, needed(readout)?, exec),
+            Self::Eikonal { .. } => sources
+                .iter()
+                .map(|sources| Ok(self.solve(sources, &[], None, exec)?.distances))
+                .collect(),
         }
     }
 }
 
-/// Reads distances from heat.
-pub(crate) fn distances<const D: usize>(heat: &Heat<D>, estimator: Estimator) -> DistanceMap<D> {
-    match estimator {
-        Estimator::Normalized => normalized(heat),
-        Estimator::Varadhan => varadhan(heat),
-    }
-}
-
-/// Reads distances from several heats.
-pub(crate) fn distances_each<const D: usize>(
-    heats: &[Heat<D>],
-    estimator: Estimator,
-    exec: &Exec,
-) -> Vec<DistanceMap<D>> {
-    match estimator {
-        Estimator::Normalized => normalized_each(heats, exec),
-        Estimator::Varadhan => heats.iter().map(varadhan).collect(),
-    }
+fn needed(readout: Option<Readout>) -> Result<Readout, Failure> {
+    readout.ok_or_else(|| {
+        Failure::argument(
+            "options: estimator is HP_EIKONAL, but the solver was made for heat: \
+             hp_solver_create() must know it",
+        )
+    })
 }

@@ -3,18 +3,17 @@
 use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::pixels;
-use crate::prepared::{self, Prepared};
+use crate::prepared::{Prepared, Solved};
 use crate::progress::Progress;
 use crate::settings::{Recipe, Settings};
-use crate::status::{Failure, HP_OUT_OF_MEMORY};
+use crate::status::{Failure, HP_OUT_OF_MEMORY, HP_PANIC};
 use crate::view::View;
-use heatpath_core::grid::distance::DistanceMap;
-use heatpath_core::grid::heat::Heat;
 use heatpath_core::grid::medium::{self, Medium, MediumError};
-use heatpath_core::grid::{Grid, Mask, Shape, Sources, fraction};
+use heatpath_core::grid::path::Descent;
+use heatpath_core::grid::{Grid, Mask, Shape, Sources, TensorField, fraction};
 
 /// What a computation needs at most, in bytes for each pixel and axis.
-const BYTES_PER_AXIS: usize = 80;
+const BYTES_PER_AXIS: usize = 90;
 
 /// The arguments that all computations begin with.
 pub(crate) struct Arguments {
@@ -55,33 +54,25 @@ impl<const D: usize> Problem<D> {
         self.medium.mask()
     }
 
-    /// Lets heat flow; `share` is its part of all the work, for the progress. Paths need the
-    /// exposure.
-    pub(crate) fn flow(self, share: f64, exposure: bool) -> Result<Flowed<D>, Failure> {
-        let Self { medium, sources, settings } = self;
-        let heat = {
-            let progress = &settings.progress;
-            let exec = settings.exec(|finished| progress.report(share * finished))?;
-            let prepared = Prepared::new(medium, settings.method, &exec)?;
-            prepared.flow(&sources, settings.estimator, exposure, &exec)?
-        };
-        Ok(Flowed { heat, settings })
-    }
-}
-
-/// Heat that has flowed.
-pub(crate) struct Flowed<const D: usize> {
-    pub(crate) heat: Heat<D>,
-    settings: Settings,
-}
-
-impl<const D: usize> Flowed<D> {
     pub(crate) fn progress(&self) -> &Progress {
         &self.settings.progress
     }
 
-    pub(crate) fn distances(&self) -> DistanceMap<D> {
-        prepared::distances(&self.heat, self.settings.estimator)
+    /// The distances: all of them or, if there are `ends`, at least those that paths from there need.
+    /// `share` is their part of all the work, for the progress.
+    pub(crate) fn solve(&self, ends: &[[f64; D]], share: f64) -> Result<Solved<D>, Failure> {
+        let Self { medium, sources, settings } = self;
+        let progress = &settings.progress;
+        let exec = settings.exec(|finished| progress.report(share * finished))?;
+        Prepared::new(medium, settings.method, &exec)?.solve(sources, ends, settings.readout, &exec)
+    }
+
+    /// What paths descend.
+    pub(crate) fn descent(&self, solved: &Solved<D>) -> Result<Descent<'_, D>, Failure> {
+        match &solved.heat {
+            Some(heat) => Ok(Descent::new(heat, &self.medium)?),
+            None => Ok(Descent::of_distances(&solved.distances, &self.sources, &self.medium)),
+        }
     }
 }
 
@@ -176,7 +167,7 @@ unsafe fn read_mask<const D: usize>(
 }
 
 /// # Safety
-/// The view's pixels can be read.
+/// The view's pixels and the options' tensors can be read.
 unsafe fn make_medium<const D: usize>(
     image: &View<D>,
     sources: Option<&Sources<D>>,
@@ -190,6 +181,11 @@ unsafe fn make_medium<const D: usize>(
             // SAFETY: the caller's promise.
             let field = unsafe { read_finite(image)? };
             return medium::given(field, form).map_err(|error| Failure::from(error).of("image"));
+        }
+        Recipe::GivenTensor { components, count } => {
+            // SAFETY: the caller's promise.
+            let field = unsafe { read_tensors(components, count, image.shape)? };
+            return medium::given_tensor(field).map_err(|error| Failure::from(error).of("tensor"));
         }
         Recipe::Conductivity(options) => {
             let grey = grey()?;
@@ -205,6 +201,33 @@ unsafe fn make_medium<const D: usize>(
     };
     // The image was checked, so this is about a parameter.
     medium.map_err(|error| Failure::from(error).of("options"))
+}
+
+/// Copies the caller's tensors.
+///
+/// # Safety
+/// `components` is NULL or points to `count` readable doubles; they need not be aligned.
+unsafe fn read_tensors<const D: usize>(
+    components: *const f64,
+    count: u64,
+    shape: Shape<D>,
+) -> Result<TensorField<D>, Failure> {
+    if components.is_null() {
+        let message = "options: tensor is NULL, but the medium is HP_MEDIUM_GIVEN_TENSOR";
+        return Err(Failure::argument(message));
+    }
+    let expected = shape.cells() * TensorField::<D>::COMPONENTS;
+    if count != expected as u64 {
+        return Err(Failure::argument(format!(
+            "options: tensor_count is {count}; it must be {} for each of {} pixels, {expected}",
+            TensorField::<D>::COMPONENTS,
+            shape.cells()
+        )));
+    }
+    // SAFETY: the caller promises `count` doubles; loads that need no alignment.
+    let copy = (0..expected).map(|i| unsafe { components.add(i).read_unaligned() }).collect();
+    TensorField::from_components(shape, copy)
+        .map_err(|error| Failure::new(HP_PANIC, error.to_string()))
 }
 
 /// The grey values that the image is compared with.

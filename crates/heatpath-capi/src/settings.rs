@@ -1,11 +1,14 @@
 //! The caller's options in the engine's words, checked.
 
+use crate::heat::{Readout, Solver};
 use crate::options::{
-    HP_EDGE_STOP_EXPONENTIAL, HP_EDGE_STOP_RATIONAL, HP_FORM_DEFAULT, HP_FORM_DIVERGENCE,
-    HP_FORM_POINTWISE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY, HP_MEDIUM_EDGES,
-    HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_SOLVER_EXPLICIT,
-    HP_SOLVER_IMPLICIT, HP_VARADHAN, hp_options,
+    HP_EDGE_STOP_EXPONENTIAL, HP_EDGE_STOP_RATIONAL, HP_EIKONAL, HP_FORM_DEFAULT,
+    HP_FORM_DIVERGENCE, HP_FORM_POINTWISE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY,
+    HP_MEDIUM_EDGES, HP_MEDIUM_GIVEN, HP_MEDIUM_GIVEN_TENSOR, HP_MEDIUM_PERONA_MALIK,
+    HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_SOLVER_EXPLICIT, HP_SOLVER_IMPLICIT, HP_VARADHAN,
+    hp_options,
 };
+use crate::prepared::Method;
 use crate::progress::Progress;
 use crate::status::Failure;
 use crate::structs::{self, Versioned};
@@ -24,20 +27,7 @@ pub(crate) enum Recipe {
     Combined(ConductivityOptions, PeronaMalikOptions),
     Edges(EdgesOptions),
     Given(Form),
-}
-
-/// How heat flows.
-#[derive(Clone, Copy)]
-pub(crate) enum Method {
-    Explicit(HeatOptions),
-    Implicit(ImplicitOptions),
-}
-
-/// How heat is read as distance.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Estimator {
-    Normalized,
-    Varadhan,
+    GivenTensor { components: *const f64, count: u64 },
 }
 
 /// The options, in the engine's words.
@@ -48,7 +38,8 @@ pub(crate) struct Settings {
     /// The grey value to compare with, if not that of the sources.
     pub(crate) reference: Option<f64>,
     pub(crate) method: Method,
-    pub(crate) estimator: Estimator,
+    /// How heat is read; `None` for a method without heat.
+    pub(crate) readout: Option<Readout>,
     pub(crate) threads: usize,
     pub(crate) progress: Progress,
 }
@@ -86,17 +77,21 @@ impl Settings {
             let message = format!("threads is {threads}; it must be at most {most}");
             return Err(Failure::argument(message));
         }
-        let estimator = match options.estimator {
-            HP_NORMALIZED => Estimator::Normalized,
-            HP_VARADHAN => Estimator::Varadhan,
-            other => return Err(unknown("estimator", other, "HP_NORMALIZED or HP_VARADHAN")),
+        if options.reserved != 0 {
+            let message = format!("reserved is {}; it must be 0", options.reserved);
+            return Err(Failure::argument(message));
+        }
+        let readout = options.readout()?;
+        let method = match readout {
+            Some(_) => Method::Heat(options.heat()?),
+            None => Method::Eikonal { farthest: options.farthest()? },
         };
         Ok(Self {
             recipe: options.recipe()?,
             range: [options.range_low, options.range_high].map(|v| (!v.is_nan()).then_some(v)),
             reference: options.reference()?,
-            method: options.method()?,
-            estimator,
+            method,
+            readout,
             threads: options.threads as usize,
             progress: Progress::new(options.progress, options.user),
         })
@@ -125,7 +120,10 @@ impl hp_options {
             HP_MEDIUM_COMBINED => Recipe::Combined(conductivity, perona_malik),
             HP_MEDIUM_EDGES => Recipe::Edges(edges),
             HP_MEDIUM_GIVEN => Recipe::Given(form.unwrap_or(Form::Pointwise)),
-            other => return Err(unknown("medium", other, "one of HP_MEDIUM_... (1 to 6)")),
+            HP_MEDIUM_GIVEN_TENSOR => {
+                Recipe::GivenTensor { components: self.tensor, count: self.tensor_count }
+            }
+            other => return Err(unknown("medium", other, "one of HP_MEDIUM_... (1 to 7)")),
         })
     }
 
@@ -154,14 +152,29 @@ impl hp_options {
         Ok((!self.reference.is_nan()).then_some(self.reference))
     }
 
-    fn method(&self) -> Result<Method, Failure> {
-        if self.reserved != 0 {
-            let message = format!("reserved is {}; it must be 0", self.reserved);
-            return Err(Failure::argument(message));
+    fn readout(&self) -> Result<Option<Readout>, Failure> {
+        match self.estimator {
+            HP_NORMALIZED => Ok(Some(Readout::Normalized)),
+            HP_VARADHAN => Ok(Some(Readout::Varadhan)),
+            HP_EIKONAL => Ok(None),
+            other => Err(unknown("estimator", other, "HP_NORMALIZED, HP_VARADHAN or HP_EIKONAL")),
         }
+    }
+
+    fn farthest(&self) -> Result<f64, Failure> {
+        match self.farthest {
+            0.0 => Ok(f64::INFINITY),
+            farthest if farthest > 0.0 => Ok(farthest),
+            farthest => Err(Failure::argument(format!(
+                "farthest is {farthest}; it must be positive, or 0 for no end"
+            ))),
+        }
+    }
+
+    fn heat(&self) -> Result<Solver, Failure> {
         match self.solver {
-            HP_SOLVER_EXPLICIT => Ok(Method::Explicit(self.explicit()?)),
-            HP_SOLVER_IMPLICIT => Ok(Method::Implicit(self.implicit()?)),
+            HP_SOLVER_EXPLICIT => Ok(Solver::Explicit(self.explicit()?)),
+            HP_SOLVER_IMPLICIT => Ok(Solver::Implicit(self.implicit()?)),
             other => Err(unknown("solver", other, "HP_SOLVER_EXPLICIT or HP_SOLVER_IMPLICIT")),
         }
     }
@@ -214,18 +227,26 @@ fn unknown(field: &str, number: u32, right: &str) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use heatpath_core::grid::distance::EikonalOptions;
 
     #[test]
     fn the_defaults_are_those_of_the_engine() {
         let settings = Settings::new(&hp_options::defaults()).map_err(|f| f.message).unwrap();
         assert!(matches!(
             settings.method,
-            Method::Explicit(options) if options == HeatOptions::default()
+            Method::Heat(Solver::Explicit(options)) if options == HeatOptions::default()
         ));
         let implicit = hp_options { solver: HP_SOLVER_IMPLICIT, ..hp_options::defaults() };
         assert!(matches!(
-            implicit.method(),
-            Ok(Method::Implicit(options)) if options == ImplicitOptions::default()
+            implicit.heat(),
+            Ok(Solver::Implicit(options)) if options == ImplicitOptions::default()
+        ));
+        let eikonal = hp_options { estimator: HP_EIKONAL, ..hp_options::defaults() };
+        let settings = Settings::new(&eikonal).map_err(|f| f.message).unwrap();
+        let usual = EikonalOptions::<2>::default();
+        assert!(matches!(
+            settings.method,
+            Method::Eikonal { farthest } if farthest == usual.farthest
         ));
         assert!(matches!(
             settings.recipe,

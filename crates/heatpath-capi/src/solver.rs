@@ -3,13 +3,13 @@
 use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::pixels;
-use crate::prepared::{self, Prepared};
+use crate::prepared::Prepared;
 use crate::problem::{read_medium, read_points};
 use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::check_pointer;
 use crate::view::{self, View};
-use heatpath_core::grid::Sources;
+use heatpath_core::grid::{Mask, Sources};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A medium prepared for distances from any sources.
@@ -17,12 +17,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
 pub struct hp_solver {
-    prepared: AnyDimension,
+    medium: AnyDimension,
 }
 
 enum AnyDimension {
-    Two(Prepared<2>),
-    Three(Prepared<3>),
+    Two(Ready<2>),
+    Three(Ready<3>),
+}
+
+/// A medium that needs nothing but sources.
+struct Ready<const D: usize> {
+    prepared: Prepared<'static, D>,
+    mask: Mask<D>,
 }
 
 /// Prepares distances from sources that are not known yet; with HP_SOLVER_IMPLICIT, analyses and
@@ -31,7 +37,8 @@ enum AnyDimension {
 /// image and mask are those of hp_distance(). They are not needed any more when this returns.
 ///
 /// options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
-/// HP_MEDIUM_COMBINED need a reference, so NULL will not do. The estimator does not count.
+/// HP_MEDIUM_COMBINED need a reference, so NULL will not do. Of the estimator it counts whether it
+/// is HP_EIKONAL: such a solver gives those distances only, and other solvers never do.
 ///
 /// solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
 /// returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
@@ -52,14 +59,14 @@ pub unsafe extern "C" fn hp_solver_create(
         // SAFETY: the caller promises room for a pointer; it is aligned.
         unsafe { solver.write(std::ptr::null_mut()) };
         // SAFETY: the caller's promise.
-        let prepared = unsafe {
+        let medium = unsafe {
             match view::dimension(image)? {
                 2 => AnyDimension::Two(prepare(image, mask, options)?),
                 _ => AnyDimension::Three(prepare(image, mask, options)?),
             }
         };
         // SAFETY: as above.
-        unsafe { solver.write(Box::into_raw(Box::new(hp_solver { prepared }))) };
+        unsafe { solver.write(Box::into_raw(Box::new(hp_solver { medium }))) };
         Ok(())
     })
 }
@@ -70,7 +77,7 @@ unsafe fn prepare<const D: usize>(
     image: *const hp_buffer,
     mask: *const hp_buffer,
     options: *const hp_options,
-) -> Result<Prepared<D>, Failure> {
+) -> Result<Ready<D>, Failure> {
     // SAFETY: the caller's promise.
     let (settings, medium) = unsafe {
         let settings = Settings::read(options)?;
@@ -78,18 +85,20 @@ unsafe fn prepare<const D: usize>(
         (settings, medium)
     };
     let exec = settings.exec(|finished| settings.progress.report(finished))?;
+    let mask = medium.mask().clone();
     let prepared = Prepared::new(medium, settings.method, &exec)?;
     settings.progress.check(1.0)?;
-    Ok(prepared)
+    Ok(Ready { prepared, mask })
 }
 
 /// Computes the distance of every pixel from each of several sources: one map for each of them.
 ///
 /// sources: source_count points, as for hp_distance().
 ///
-/// options: only estimator, threads, progress and user count here; the rest was fixed when the
-/// solver was made. NULL for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the
-/// threads; the results do not depend on how many there are.
+/// options: only estimator, threads, progress and user count here, and of a solver made with
+/// HP_EIKONAL the estimator does not; the rest was fixed when the solver was made. NULL for the
+/// defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
+/// depend on how many there are.
 ///
 /// distances: describes the first map, as for hp_distance().
 ///
@@ -119,14 +128,14 @@ pub unsafe extern "C" fn hp_solver_distances(
         unsafe {
             let settings = Settings::read(options)?;
             let maps = (distances, map_stride);
-            match &(*solver).prepared {
-                AnyDimension::Two(prepared) => {
+            match &(*solver).medium {
+                AnyDimension::Two(ready) => {
                     let points = read_points(sources, source_count, "sources")?;
-                    write_maps(prepared, &points, &settings, maps)
+                    write_maps(ready, &points, &settings, maps)
                 }
-                AnyDimension::Three(prepared) => {
+                AnyDimension::Three(ready) => {
                     let points = read_points(sources, source_count, "sources")?;
-                    write_maps(prepared, &points, &settings, maps)
+                    write_maps(ready, &points, &settings, maps)
                 }
             }
         }
@@ -136,7 +145,7 @@ pub unsafe extern "C" fn hp_solver_distances(
 /// # Safety
 /// As [`hp_solver_distances`].
 unsafe fn write_maps<const D: usize>(
-    prepared: &Prepared<D>,
+    Ready { prepared, mask }: &Ready<D>,
     points: &[[f64; D]],
     settings: &Settings,
     (distances, map_stride): (*const hp_buffer, i64),
@@ -144,28 +153,29 @@ unsafe fn write_maps<const D: usize>(
     // SAFETY: the caller's promise.
     let first = unsafe { View::<D>::read(distances, "distances")? };
     pixels::check_writable(&first)?;
-    first.check_size(prepared.medium().shape())?;
+    first.check_size(mask.shape())?;
     let stride = first.map_stride(map_stride, points.len()).map_err(|f| f.of("distances"))?;
-    let sources = Sources::new(points, prepared.medium().mask())?.each();
-    // === A few at a time, so that their heat needs little memory
+    let sources = Sources::new(points, mask)?.each();
+    // === A few at a time, so that they need little memory
     let (count, done, round) = (sources.len(), AtomicUsize::new(0), AtomicUsize::new(1));
+    let progress = &settings.progress;
     let exec = settings.exec(|finished| {
         let (done, round) = (done.load(Ordering::Relaxed), round.load(Ordering::Relaxed));
-        settings.progress.report((done as f64 + finished * round as f64) / count as f64)
+        progress.report((done as f64 + finished * round as f64) / count as f64)
     })?;
     for (number, sources) in sources.chunks(prepared.round(exec.threads())).enumerate() {
         let before = number * prepared.round(exec.threads());
         done.store(before, Ordering::Relaxed);
         round.store(sources.len(), Ordering::Relaxed);
-        let heats = prepared.flow_each(sources, settings.estimator, &exec)?;
-        let maps = prepared::distances_each(&heats, settings.estimator, &exec);
+        progress.check(before as f64 / count as f64)?;
+        let maps = prepared.solve_each(sources, settings.readout, &exec)?;
         for (place, map) in (before..).zip(&maps) {
             // SAFETY: the caller promises that the pixels can be written; their type was checked,
             // and that all maps lie within memory.
             unsafe { pixels::write(&first.moved(stride * place as isize), map.field().values()) };
         }
     }
-    settings.progress.check(1.0)
+    progress.check(1.0)
 }
 
 /// Frees a solver; NULL is fine.

@@ -1,6 +1,7 @@
 //! What functions return, and the message that goes with it.
 
 use heatpath_core::exec::{Cancelled, ThreadsError};
+use heatpath_core::grid::distance::EikonalError;
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::{NotFinite, PointError, ShapeError};
@@ -88,7 +89,10 @@ impl From<ThreadsError> for Failure {
 impl From<MediumError> for Failure {
     fn from(error: MediumError) -> Self {
         let status = match error {
-            MediumError::NotFinite(_) | MediumError::GivenValue { .. } => HP_INVALID_IMAGE,
+            MediumError::NotFinite(_)
+            | MediumError::GivenValue { .. }
+            | MediumError::GivenTensor { .. } => HP_INVALID_IMAGE,
+            MediumError::Cancelled(cancelled) => return cancelled.into(),
             MediumError::MaskSize { .. } => HP_INVALID_BUFFER,
             MediumError::Parameter { .. } | MediumError::Smoothing(_) => HP_INVALID_ARGUMENT,
         };
@@ -131,6 +135,18 @@ impl From<ImplicitError> for Failure {
                 HP_INVALID_ARGUMENT
             }
             ImplicitError::Linear(_) => HP_RANGE,
+        };
+        Self::new(status, error.to_string())
+    }
+}
+
+impl From<EikonalError> for Failure {
+    fn from(error: EikonalError) -> Self {
+        let status = match error {
+            EikonalError::TooLarge { .. } => HP_UNSUPPORTED,
+            EikonalError::InitialCount { .. } | EikonalError::Initial { .. } => HP_INVALID_ARGUMENT,
+            EikonalError::Target(error) => return error.into(),
+            EikonalError::Cancelled(cancelled) => return cancelled.into(),
         };
         Self::new(status, error.to_string())
     }

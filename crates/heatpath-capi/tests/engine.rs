@@ -4,13 +4,13 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath::{
-    HP_F64, HP_FORM_DIVERGENCE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY, HP_MEDIUM_EDGES,
-    HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_OK, HP_U16,
-    HP_VARADHAN, hp_buffer, hp_buffer_init, hp_distance, hp_options, hp_options_init, hp_path_info,
-    hp_paths_create, hp_paths_free, hp_paths_info, hp_paths_points,
+    HP_EIKONAL, HP_F64, HP_FORM_DIVERGENCE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY,
+    HP_MEDIUM_EDGES, HP_MEDIUM_GIVEN, HP_MEDIUM_PERONA_MALIK, HP_MEDIUM_UNIFORM, HP_NORMALIZED,
+    HP_OK, HP_U16, HP_VARADHAN, hp_buffer, hp_buffer_init, hp_distance, hp_options,
+    hp_options_init, hp_path_info, hp_paths_create, hp_paths_free, hp_paths_info, hp_paths_points,
 };
 use heatpath_core::Exec;
-use heatpath_core::grid::distance::{normalized, varadhan};
+use heatpath_core::grid::distance::{DistanceMap, Eikonal, EikonalOptions, normalized, varadhan};
 use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, EdgesOptions, Form, Medium};
 use heatpath_core::grid::path::{Descent, Ending, PathOptions};
@@ -135,6 +135,18 @@ fn distances_are_those_of_the_engine() {
 }
 
 #[test]
+fn exact_distances_are_those_of_the_engine() {
+    let exec = Exec::single_threaded();
+    for number in HP_MEDIUM_UNIFORM..=HP_MEDIUM_GIVEN {
+        let medium = engine_medium(number);
+        let eikonal = Eikonal::new(&medium, &exec).unwrap();
+        let expected = eikonal.distance(&sources(), &EikonalOptions::default(), &exec).unwrap();
+        let expected = expected.into_field().into_values();
+        assert!(c_distance(&options(number, HP_EIKONAL)) == expected, "medium {number}");
+    }
+}
+
+#[test]
 fn the_form_of_a_medium_can_be_chosen() {
     let field = grey().map(|v| v * 65_535.0);
     let medium = medium::given(field, Form::Divergence).unwrap().with_walls(mask()).unwrap();
@@ -144,24 +156,37 @@ fn the_form_of_a_medium_can_be_chosen() {
     assert!(c_distance(&options) == expected);
 }
 
+const ENDS: [[f64; 2]; 3] = [[20.0, 3.5], [45.0, 5.0], [2.0, 38.0]];
+
 #[test]
 fn paths_are_those_of_the_engine() {
-    let ends = [[20.0, 3.5], [45.0, 5.0], [2.0, 38.0]];
     let medium = engine_medium(HP_MEDIUM_CONDUCTIVITY);
     let heat = engine_heat(&medium, HP_NORMALIZED);
-    let (descent, distances) = (Descent::new(&heat, medium).unwrap(), normalized(&heat));
+    check_paths(HP_NORMALIZED, &Descent::new(&heat, &medium).unwrap(), &normalized(&heat));
+}
 
+#[test]
+fn paths_of_exact_distances_are_those_of_the_engine() {
+    let (medium, exec) = (engine_medium(HP_MEDIUM_CONDUCTIVITY), Exec::single_threaded());
+    let eikonal = Eikonal::new(&medium, &exec).unwrap();
+    let options = EikonalOptions { targets: ENDS.to_vec(), ..EikonalOptions::default() };
+    let distances = eikonal.distance(&sources(), &options, &exec).unwrap();
+    let descent = Descent::of_distances(&distances, &sources(), &medium);
+    check_paths(HP_EIKONAL, &descent, &distances);
+}
+
+fn check_paths(estimator: u32, descent: &Descent<'_, 2>, distances: &DistanceMap<2>) {
     let (mut image, mut mask) = pixels();
     let (image, mask) = (buffer(&mut image, HP_U16), buffer(&mut mask, HP_U16));
-    let options = options(HP_MEDIUM_CONDUCTIVITY, HP_NORMALIZED);
-    let (from, to) = (SOURCES.as_flattened().as_ptr(), ends.as_flattened().as_ptr());
+    let options = options(HP_MEDIUM_CONDUCTIVITY, estimator);
+    let (from, to) = (SOURCES.as_flattened().as_ptr(), ENDS.as_flattened().as_ptr());
     let mut paths = std::ptr::null_mut();
     // SAFETY: the buffers describe the vectors above, and the points are two and three.
     let status =
         unsafe { hp_paths_create(&image, &mask, from, 2, to, 3, &options, &raw mut paths) };
     assert_eq!(status, HP_OK);
-    for (index, &end) in ends.iter().enumerate() {
-        let expected = descent.path(end, &distances, PathOptions::default()).unwrap();
+    for (index, &end) in ENDS.iter().enumerate() {
+        let expected = descent.path(end, distances, PathOptions::default()).unwrap();
         let Ending::Source(source) = expected.ending else { panic!("{:?}", expected.ending) };
         // SAFETY: as in `buffer`.
         let mut info: hp_path_info = unsafe { zeroed() };

@@ -28,6 +28,15 @@ fn needed(dimension: usize) -> &'static str {
     }
 }
 
+/// The shape of a field of tensors on that many axes.
+fn tensors(dimension: usize) -> &'static str {
+    if dimension == 3 {
+        "(slices, rows, columns, 6), which are xx, xy, xz, yy, yz, zz"
+    } else {
+        "(rows, columns, 3), which are xx, xy, yy"
+    }
+}
+
 /// Why a file could not be read. Every message is one line and names the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -94,8 +103,9 @@ pub enum ReadError {
     },
     /// The array is neither a picture nor a volume.
     #[error(
-        "{}: an array of shape {shape:?}; (rows, columns), (rows, columns, 3 or 4) in colour and \
-         (slices, rows, columns), at least one of each, are accepted",
+        "{}: an array of shape {shape:?}; (rows, columns), (rows, columns, 3 or 4) in colour, \
+         (slices, rows, columns) and (slices, rows, columns, 6) of tensors, at least one of each, are \
+         accepted",
         path.display()
     )]
     Shape {
@@ -123,6 +133,23 @@ pub enum ReadError {
         path: PathBuf,
         /// The channels of the file.
         channels: usize,
+    },
+    /// One value a pixel is needed, but the file has a tensor for each.
+    #[error("{}: a field of tensors; one value a voxel is needed", path.display())]
+    Tensors {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A tensor for each pixel is needed, but the file has none.
+    #[error(
+        "{}: no field of tensors; that is an NPY array of shape {}",
+        path.display(), tensors(*dimension)
+    )]
+    NoTensors {
+        /// The file.
+        path: PathBuf,
+        /// The number of axes that is needed.
+        dimension: usize,
     },
     /// The file is a volume where a picture is needed, or the other way round.
     #[error("{}: has {}; {}", path.display(), pixels(size), needed(*dimension))]

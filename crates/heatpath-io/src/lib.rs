@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | in | pictures, fields, masks ([`read_picture`], [`read_field`], [`read_mask`]) | PNG, JPEG, TIFF, PNM, NPY |
 //! | in | the same of volumes | TIFF of several pages, NPY of three axes |
+//! | in | tensor fields ([`read_tensors`]) | NPY with one more axis |
 //! | in | a picture or a volume, as the file says ([`ImageFile`]) | as these |
 //! | in | points ([`read_points`]) | CSV, JSON |
 //! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
@@ -57,6 +58,8 @@ pub use field::{FieldFormat, FieldStyle, write_field};
 pub use info::{Info, info};
 pub use output::{check_dimension, check_output, write_atomically};
 pub use overlay::{Overlay, write_overlay};
-pub use picture::{Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture};
+pub use picture::{
+    Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture, read_tensors,
+};
 pub use points::{read_points, read_points_from_bytes};
 pub use sample::SampleType;

@@ -1,8 +1,8 @@
-//! Pictures, volumes, fields and masks from files.
+//! Pictures, volumes, fields of numbers and of tensors, and masks from files.
 
 use crate::ReadError;
 use crate::decode::{Raster, decode};
-use heatpath_core::grid::{Grid, Mask, Shape, fraction};
+use heatpath_core::grid::{Grid, LengthError, Mask, Shape, TensorField, fraction};
 use std::path::{Path, PathBuf};
 
 /// The parts of red, green and blue in the luma of Rec. 709.
@@ -135,6 +135,32 @@ impl ImageFile {
         file.grid(grey(&file.raster, Channel::default()), spacing)
     }
 
+    /// Whether the file can be read as a field of tensors on a picture (`dimension` 2) or volume (3).
+    ///
+    /// An array of shape (rows, columns, 3) can, although it can be a picture in colour as well.
+    #[must_use]
+    pub fn has_tensors(&self, dimension: usize) -> bool {
+        self.raster.has_tensors(dimension)
+    }
+
+    /// The raw values as one symmetric matrix a pixel: an array of numpy of shape (rows, columns, 3),
+    /// which are xx, xy, yy, or (slices, rows, columns, 6), which are xx, xy, xz, yy, yz, zz. Values
+    /// that are infinite or not a number are kept.
+    ///
+    /// # Errors
+    /// The file has no tensors on that many axes; the spacing is not positive and finite.
+    pub fn into_tensors<const D: usize>(
+        self,
+        spacing: [f64; D],
+    ) -> Result<TensorField<D>, ReadError> {
+        if !self.has_tensors(D) {
+            return Err(ReadError::NoTensors { path: self.path, dimension: D });
+        }
+        let samples = &self.raster.samples;
+        let components = samples.values(0..samples.len());
+        TensorField::from_components(self.shape(spacing)?, components).map_err(|e| self.broken(&e))
+    }
+
     /// The mask: pixels that are zero (in a colour picture: black) are walls, all others are open.
     /// Alpha is ignored. In bilevel PNM files ink is zero, that is wall.
     ///
@@ -152,6 +178,9 @@ impl ImageFile {
     }
 
     fn in_dimension(self, dimension: usize) -> Result<Self, ReadError> {
+        if self.has_tensors(3) {
+            return Err(ReadError::Tensors { path: self.path });
+        }
         let (path, size) = (self.path, self.raster.size.clone());
         match self.raster.in_dimension(dimension) {
             Some(raster) => Ok(Self { path, raster }),
@@ -164,14 +193,21 @@ impl ImageFile {
         values: Vec<f64>,
         spacing: [f64; D],
     ) -> Result<Grid<f64, D>, ReadError> {
+        Grid::from_values(self.shape(spacing)?, values).map_err(|error| self.broken(&error))
+    }
+
+    fn shape<const D: usize>(&self, spacing: [f64; D]) -> Result<Shape<D>, ReadError> {
         let size = std::array::from_fn(|axis| self.raster.size[axis]);
-        let shape = Shape::with_spacing(size, spacing)
-            .map_err(|source| ReadError::Grid { path: self.path.clone(), source })?;
-        Grid::from_values(shape, values).map_err(|error| ReadError::Decode {
+        Shape::with_spacing(size, spacing)
+            .map_err(|source| ReadError::Grid { path: self.path.clone(), source })
+    }
+
+    fn broken(&self, error: &LengthError) -> ReadError {
+        ReadError::Decode {
             path: self.path.clone(),
             format: self.raster.format,
             reason: error.to_string(),
-        })
+        }
     }
 }
 
@@ -195,6 +231,17 @@ pub fn read_field<const D: usize>(
     spacing: [f64; D],
 ) -> Result<Grid<f64, D>, ReadError> {
     ImageFile::read(path)?.into_field(spacing)
+}
+
+/// Reads one symmetric matrix a pixel, unscaled. Values that are infinite or not a number are kept.
+///
+/// # Errors
+/// As [`ImageFile::read`] and [`ImageFile::into_tensors`].
+pub fn read_tensors<const D: usize>(
+    path: impl AsRef<Path>,
+    spacing: [f64; D],
+) -> Result<TensorField<D>, ReadError> {
+    ImageFile::read(path)?.into_tensors(spacing)
 }
 
 /// Reads a mask: pixels that are zero (in a colour picture: black) are walls, all others are open.

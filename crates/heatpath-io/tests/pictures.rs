@@ -294,6 +294,34 @@ fn arrays_of_three_axes_are_volumes() {
     assert_eq!((info.size, info.channels, info.max), (vec![6, 2, 2], 1, Some(23.0)));
 }
 
+#[test]
+fn one_more_axis_holds_tensors() {
+    let data: Vec<u8> = (0..36).collect();
+    // numpy.arange(36).reshape(3, 4, 3) and (1, 3, 2, 6)
+    let plane = npy("'|u1'", false, "(3, 4, 3)", &data);
+    let file = ImageFile::from_bytes(&plane, "test").unwrap();
+    assert!(file.has_tensors(2) && !file.has_tensors(3));
+    let field = file.into_tensors([0.5, 2.0]).unwrap();
+    assert_eq!((field.shape().size(), field.shape().spacing()), ([4, 3], [0.5, 2.0]));
+    assert_eq!(field.at(5), [[15.0, 16.0], [16.0, 17.0]]);
+    let space = npy("'|u1'", false, "(1, 3, 2, 6)", &data);
+    let file = ImageFile::from_bytes(&space, "v.npy").unwrap();
+    assert!(file.has_tensors(3) && !file.has_tensors(2));
+    assert_eq!((file.info().size, file.info().channels), (vec![2, 3, 1], 6));
+    assert_eq!(file.info().max, Some(35.0));
+    let field = file.clone().into_tensors([1.0; 3]).unwrap();
+    assert_eq!(field.shape().size(), [2, 3, 1]);
+    assert_eq!(field.at(3), [[18.0, 19.0, 20.0], [19.0, 21.0, 22.0], [20.0, 22.0, 23.0]]);
+    let error = file.clone().into_field([1.0; 3]).unwrap_err();
+    assert_eq!(error.to_string(), "v.npy: a field of tensors; one value a voxel is needed");
+    let error = file.into_tensors([1.0; 2]).unwrap_err().to_string();
+    let right = "v.npy: no field of tensors; that is an NPY array of shape (rows, columns, 3), which \
+                 are xx, xy, yy";
+    assert_eq!(error, right);
+    let grey = ImageFile::from_bytes(&npy("'|u1'", false, "(6, 6)", &data), "test").unwrap();
+    assert!(matches!(grey.into_tensors([1.0; 3]), Err(ReadError::NoTensors { dimension: 3, .. })));
+}
+
 /// Three axes of which the last one is short: colours, unless a volume is asked for.
 #[test]
 fn an_axis_of_colours_can_be_one_of_columns() {

@@ -69,7 +69,7 @@ pub(crate) struct Raster {
     pub(crate) format: Format,
     /// Columns, rows and, of a volume, slices.
     pub(crate) size: Vec<usize>,
-    /// Grey, grey and alpha, red-green-blue, or these and alpha.
+    /// Grey, grey and alpha, red-green-blue, these and alpha, or the components of a tensor.
     pub(crate) channels: usize,
     pub(crate) sample: SampleType,
     /// Slice by slice and row by row, the channels of a pixel side by side.
@@ -103,9 +103,19 @@ impl Raster {
         Some(self)
     }
 
-    /// The channels without alpha: 1 or 3.
+    /// The channels without alpha: 1, 3, or those of a tensor.
     pub(crate) fn colours(&self) -> usize {
-        if self.channels < 3 { 1 } else { 3 }
+        match self.channels {
+            1 | 2 => 1,
+            3 | 4 => 3,
+            components => components,
+        }
+    }
+
+    /// Whether it has the numbers of a symmetric matrix for each cell of a grid of that `dimension`.
+    pub(crate) fn has_tensors(&self, dimension: usize) -> bool {
+        let components = dimension * (dimension + 1) / 2;
+        self.channel_axis && self.size.len() == dimension && self.channels == components
     }
 }
 

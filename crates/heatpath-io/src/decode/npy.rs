@@ -8,7 +8,7 @@ use npyz::{DType, Deserialize, NpyFile, Order, TypeChar};
 type Array<'a> = NpyFile<&'a [u8]>;
 
 /// Both byte orders, C and Fortran order; shape (rows, columns), (rows, columns, 3 or 4) in colour,
-/// or (slices, rows, columns).
+/// (slices, rows, columns), or (slices, rows, columns, 6) of tensors.
 pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     npy_header::check(input.bytes).map_err(|e| input.broken(e))?;
     let array = NpyFile::new(input.bytes).map_err(|e| input.broken(e))?;
@@ -50,6 +50,7 @@ fn check_shape(input: &Input<'_>, array: &Array<'_>) -> Result<(Vec<usize>, usiz
         [rows, columns] => (vec![columns, rows], 1),
         [rows, columns, channels @ (1 | 3 | 4)] => (vec![columns, rows], channels as usize),
         [slices, rows, columns] => (vec![columns, rows, slices], 1),
+        [slices, rows, columns, 6] => (vec![columns, rows, slices], 6),
         _ => (Vec::new(), 0),
     };
     if size.is_empty() {

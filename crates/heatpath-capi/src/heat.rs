@@ -1,0 +1,99 @@
+//! Heat of either kind, ready to flow from any sources.
+
+use crate::status::Failure;
+use heatpath_core::Exec;
+use heatpath_core::grid::Sources;
+use heatpath_core::grid::distance::{DistanceMap, normalized, normalized_each, varadhan};
+use heatpath_core::grid::heat::{
+    Explicit, Heat, HeatOptions, HeatSolver, Implicit, ImplicitOptions,
+};
+use heatpath_core::grid::medium::Medium;
+use std::borrow::Cow;
+
+/// How heat flows.
+#[derive(Clone, Copy)]
+pub(crate) enum Solver {
+    Explicit(HeatOptions),
+    Implicit(ImplicitOptions),
+}
+
+/// How heat is read as distance.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Readout {
+    Normalized,
+    Varadhan,
+}
+
+/// A medium in which heat can flow.
+pub(crate) enum PreparedHeat<'a, const D: usize> {
+    /// Checked only: what there is to prepare costs less than a step or two.
+    Explicit(Cow<'a, Medium<D>>, HeatOptions),
+    Implicit(Box<Implicit<'a, D>>),
+}
+
+impl<'a, const D: usize> PreparedHeat<'a, D> {
+    pub(crate) fn new(
+        medium: Cow<'a, Medium<D>>,
+        solver: Solver,
+        exec: &Exec,
+    ) -> Result<Self, Failure> {
+        match solver {
+            Solver::Explicit(options) => {
+                Explicit::new(medium.as_ref(), options)?;
+                Ok(Self::Explicit(medium, options))
+            }
+            Solver::Implicit(options) => {
+                Ok(Self::Implicit(Box::new(Implicit::new(medium, options, exec)?)))
+            }
+        }
+    }
+
+    /// Lets heat flow from all sources together; paths need its exposure.
+    pub(crate) fn flow(
+        &self,
+        sources: &Sources<D>,
+        readout: Readout,
+        exposure: bool,
+        exec: &Exec,
+    ) -> Result<Heat<D>, Failure> {
+        let balanced = readout == Readout::Normalized;
+        match self {
+            Self::Explicit(medium, options) => {
+                let options = HeatOptions { exposure, ..*options };
+                let explicit = Explicit::new(medium.as_ref(), options)?;
+                Ok(explicit.flow_from(sources, balanced, exec)?)
+            }
+            Self::Implicit(implicit) => Ok(implicit.flow_from(sources, balanced, exec)?),
+        }
+    }
+
+    /// The distances from each of several sources by itself.
+    pub(crate) fn distances_each(
+        &self,
+        sources: &[Sources<D>],
+        readout: Readout,
+        exec: &Exec,
+    ) -> Result<Vec<DistanceMap<D>>, Failure> {
+        let heats = match self {
+            Self::Explicit(..) => sources
+                .iter()
+                .map(|sources| self.flow(sources, readout, false, exec))
+                .collect::<Result<_, _>>()?,
+            Self::Implicit(implicit) => implicit.flow_many(sources, exec)?,
+        };
+        Ok(match readout {
+            Readout::Normalized => normalized_each(&heats, exec),
+            Readout::Varadhan => heats.iter().map(varadhan).collect(),
+        })
+    }
+}
+
+impl Readout {
+    /// Reads distances from heat.
+    pub(crate) fn read<const D: usize>(self, heat: &Heat<D>) -> DistanceMap<D> {
+        match self {
+            Self::Normalized => normalized(heat),
+            Self::Varadhan => varadhan(heat),
+        }
+    }
+}
