@@ -1,4 +1,4 @@
-//! Any bytes as a picture or volume, a mask and a field: an error or values that keep their promise.
+//! Any bytes as a picture or volume, a mask and fields: an error or values that keep their promise.
 
 #![no_main]
 
@@ -22,4 +22,5 @@ fn check<const D: usize>(file: &ImageFile) {
     }
     let _ = file.clone().into_mask([1.0; D]);
     let _ = file.clone().into_field([1.0; D]);
+    let _ = file.clone().into_tensors([1.0; D]);
 }
