@@ -4,20 +4,21 @@
 //! nothing cancels: u is positive wherever heat has come, and exact to a few units in its last place a
 //! step.
 //!
-//! Which offsets a cell has differs from cell to cell, but neighbours have most of them in common. So
-//! eight cells in a row along x, a bundle, share one list of offsets: those of all of them. Shares and
-//! values are then read eight at a time, each from one place, and added up in registers. The shares of cells that do not have an offset of
-//! their bundle are zeros, which change no bit of a sum. Tried and slower, by a third to a half: lists for
-//! longer strips, and one offset after the other for a whole row, in which sums go through memory.
+//! Which offsets a cell has differs from cell to cell, but neighbours have most of them in common. So a
+//! bundle of cells in a row along x shares one list of offsets: those of all of them. Shares and values
+//! are then read a vector at a time, each from one place, and added up in registers. The shares of
+//! cells that do not have an offset of their bundle are zeros, which change no bit of a sum. What
+//! takes the time is reading the shares. Tried and slower by a third to a half: lists for longer
+//! strips of a row, and one offset after the other for a whole row, both with sums that go through
+//! memory.
 
 use super::super::links::Links;
 use super::super::operator::Operator;
-use super::stencil::ROW_MULTIPLE;
 use crate::grid::Shape;
 use crate::simd::Aligned;
 
 /// The cells that share a list of offsets, which belong together on any grid, however it is cut.
-pub(super) const BUNDLE: usize = ROW_MULTIPLE;
+pub(super) const BUNDLE: usize = 16;
 
 /// Where cells receive heat from, and which share of it.
 #[derive(Debug)]
@@ -30,7 +31,7 @@ pub(super) struct Gather<const D: usize> {
     starts: Vec<usize>,
     /// The number of the offset of each term, in order in each bundle.
     terms: Vec<u32>,
-    /// Eight shares for each term.
+    /// As many shares for each term as a bundle has cells.
     shares: Aligned,
 }
 

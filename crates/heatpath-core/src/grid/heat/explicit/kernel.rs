@@ -129,7 +129,8 @@ impl<const D: usize> Window<D> {
     ) -> Self {
         // Behind the last row along each axis one more is read, through faces without conductance.
         let mut strides = [0; D];
-        let mut numbers = room[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE;
+        let multiple = stencil.row_multiple();
+        let mut numbers = room[0].next_multiple_of(multiple) + multiple;
         for axis in 1..D {
             strides[axis] = numbers;
             numbers *= room[axis] + 1;
@@ -154,7 +155,7 @@ impl<const D: usize> Window<D> {
             }
             Stencil::Gather(gather) => {
                 // What lies beyond the ends of the first and the last row is read, and counts for nothing.
-                window.first = gather.reach()[0].next_multiple_of(ROW_MULTIPLE);
+                window.first = gather.reach()[0].next_multiple_of(multiple);
                 numbers += 2 * window.first;
                 window.other = Aligned::zeros(numbers);
                 window.shifts = gather.shifts(&strides);
