@@ -1,13 +1,13 @@
 //! In which order rows are computed: tiles, several steps a visit, threads, range.
 //!
 //! The grid is cut into tiles. A tile is advanced by several steps at a time in a small scratch
-//! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each step
-//! leaves less that is right, until the tile itself is left. The cells of the
-//! margin are computed by more than one tile; in return a tile is visited once for several steps
-//! and stays in cache, tiles depend on nothing but the state before the visit, so they can run on
-//! any thread in any order with the same result, and each tile keeps an exponent of its own.
-//! Heat moves one cell a step (in tensor media as far as the longest offset), so a tile without heat
-//! in it or around it is passed over.
+//! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each
+//! step leaves less that is right, until the tile itself is left. The cells of the margin are
+//! computed by more than one tile; in return a tile is visited once for several steps and stays in
+//! cache, tiles depend on nothing but the state before the visit, so they can run on any thread in
+//! any order with the same result, and each tile keeps an exponent of its own. Heat moves one cell
+//! a step (in tensor media as far as the longest offset), so a tile without heat in it or around it
+//! is passed over.
 
 use super::kernel::{Extent, Window};
 use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
@@ -47,9 +47,9 @@ impl<const D: usize> Tiling<D> {
     /// The ways to cut a grid, in the order in which they are tried.
     ///
     /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
-    /// they must hold a wider range of values, and in 3-D outgrow the cache.
-    /// Where heat moves further than a cell in a step, larger tiles have room for its margins, which
-    /// are not wider than a quarter of a tile if one step is not.
+    /// they must hold a wider range of values, and in 3-D outgrow the cache. Where heat moves
+    /// further than a cell in a step, larger tiles have room for its margins, which are not wider
+    /// than a quarter of a tile if one step is not.
     pub(super) fn all(stencil: &Stencil<D>) -> impl Iterator<Item = Self> + use<D> {
         let (reach, row_multiple) = (stencil.reach(), stencil.row_multiple());
         let furthest = reach.into_iter().max().unwrap_or(1);
