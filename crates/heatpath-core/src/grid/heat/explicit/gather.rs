@@ -10,10 +10,10 @@
 //! sum.
 //!
 //! What takes the time is reading the shares. They are therefore stored in single precision, which
-//! is a fifth to a quarter faster: heat flows as if every conductance were changed by up to 3e-8 of
+//! is a tenth to a quarter faster: heat flows as if every conductance were changed by up to 3e-8 of
 //! itself, the same for both cells of a pair. What a cell keeps is the exact rest, so heat is
 //! conserved to the last bits of u, which is in double precision as ever. A share is at least
-//! 1e-38, or none. Tried and slower, by a third to a half: lists for longer strips of a row, and
+//! 1e-38, or none. Tried and slower, by an eighth to a half: lists for longer strips of a row, and
 //! one offset after the other for a whole row, both with sums that go through memory.
 
 use super::super::links::Links;
