@@ -16,7 +16,7 @@ use heatpath_core::exec::SimdLevel;
 use heatpath_core::grid::distance::normalized;
 use heatpath_core::grid::heat::{Duration, Explicit, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, Medium};
-use heatpath_core::grid::{Grid, Shape, Sources};
+use heatpath_core::grid::{Grid, Shape, Sources, TensorField};
 use std::hint::black_box;
 use std::ops::{Add, Mul, Sub};
 use std::time;
@@ -64,6 +64,28 @@ fn space(criterion: &mut Criterion) {
         from_point(&mut group, &medium, point_steps);
         from_noise(&mut group, &medium, noise_steps);
     }
+}
+
+/// Tensors whose directions turn around the middle, with an anisotropy of 0.9, beside numbers: with
+/// exposure, from noise.
+fn tensors(criterion: &mut Criterion) {
+    fn compare<const D: usize>(group: &mut Group, side: usize, iterations: usize) {
+        let image = picture([side; D]);
+        let number = medium::given(image.map(|v| 0.1 + 0.9 * v), medium::Form::Divergence).unwrap();
+        let tensor = medium::given_tensor(turning(*image.shape())).unwrap();
+        let options = HeatOptions { exposure: true, ..steps(iterations) };
+        let exec = Exec::single_threaded();
+        group.throughput(Throughput::Elements((image.shape().cells() * iterations) as u64));
+        for (name, medium) in [("number", &number), ("tensor", &tensor)] {
+            let explicit = Explicit::new(medium, options).unwrap();
+            flow(group, BenchmarkId::new(name, side), &explicit, &noise(medium), &exec);
+        }
+    }
+    let mut group = group(criterion, "tensors");
+    for side in [300, 600, 1024] {
+        compare::<2>(&mut group, side, 200);
+    }
+    compare::<3>(&mut group, 128, 20);
 }
 
 /// From heat to distance.
@@ -157,6 +179,21 @@ fn conductivity<const D: usize>(image: &Grid<f64, D>) -> Medium<D> {
     medium::conductivity(image, &[0.8], Default::default()).unwrap()
 }
 
+/// Tensors of 1 along circles around an axis through the middle, and 1 / 19 across.
+fn turning<const D: usize>(shape: Shape<D>) -> TensorField<D> {
+    TensorField::from_fn(shape, |index| {
+        let from_middle = |axis: usize| index[axis] as f64 - 0.487 * shape.size()[axis] as f64;
+        let radius = from_middle(0).hypot(from_middle(1));
+        let mut along = [0.0; D];
+        (along[0], along[1]) = (-from_middle(1) / radius, from_middle(0) / radius);
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                18.0 / 19.0 * along[i] * along[j] + if i == j { 1.0 / 19.0 } else { 0.0 }
+            })
+        })
+    })
+}
+
 /// The cell in the middle.
 fn point<const D: usize>(medium: &Medium<D>) -> Sources<D> {
     let middle = medium.shape().size().map(|side| (side / 2) as f64);
@@ -223,5 +260,5 @@ fn unit_step<T: Number>(next: &mut [T], u: &[T], across: &[T], down: &[T], side:
     }
 }
 
-criterion_group!(benches, levels, plane, space, transform, whole);
+criterion_group!(benches, levels, plane, space, tensors, transform, whole);
 criterion_main!(benches);

@@ -9,7 +9,7 @@
 //! runs. `wide` chooses when it is compiled; its vectors serve where nothing is to choose: as the
 //! lanes that every processor of the target has (SSE2, NEON).
 
-use bytemuck::Pod;
+use bytemuck::{Pod, cast_slice, pod_read_unaligned};
 use std::ops::{Deref, DerefMut};
 use wide::{f64x2, f64x8};
 
@@ -121,6 +121,8 @@ pub(crate) trait Lanes: Copy {
     fn add(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn sub(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
     fn mul(self, a: Self::Vector, b: Self::Vector) -> Self::Vector;
+    /// As many of some numbers as a vector holds, from number `from` on.
+    fn widen(self, numbers: &[f32], from: usize) -> Self::Vector;
     /// The numbers one place before those of `here`: the last of `before`, then `here` without its
     /// last.
     fn one_before(self, before: Self::Vector, here: Self::Vector) -> Self::Vector;
@@ -165,6 +167,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn widen(self, numbers: &[f32], from: usize) -> f64x2 {
+        f64x2::from([f64::from(numbers[from]), f64::from(numbers[from + 1])])
+    }
+
+    #[inline(always)]
     fn one_before(self, before: f64x2, here: f64x2) -> f64x2 {
         f64x2::from([before.to_array()[1], here.to_array()[0]])
     }
@@ -177,7 +184,12 @@ impl Lanes for Portable {
 
 #[cfg(target_arch = "x86_64")]
 macro_rules! impl_lanes {
-    ($level:ty, |$simd:ident, $low:ident, $high:ident| $before:expr, $after:expr) => {
+    (
+        $level:ty,
+        |$simd:ident, $low:ident, $high:ident| $before:expr,
+        $after:expr,
+        |$numbers:ident| $widen:expr
+    ) => {
         impl Lanes for $level {
             type Vector = <$level as Simd>::f64s;
 
@@ -202,6 +214,13 @@ macro_rules! impl_lanes {
             }
 
             #[inline(always)]
+            fn widen(self, numbers: &[f32], from: usize) -> Self::Vector {
+                let $simd = self;
+                let $numbers = &numbers[from..from + size_of::<Self::Vector>() / size_of::<f64>()];
+                cast($widen)
+            }
+
+            #[inline(always)]
             fn one_before(self, $low: Self::Vector, $high: Self::Vector) -> Self::Vector {
                 let $simd = self;
                 cast($before)
@@ -220,14 +239,16 @@ macro_rules! impl_lanes {
 impl_lanes!(
     V4,
     |simd, low, high| simd.avx512f._mm512_alignr_epi64::<7>(cast(high), cast(low)),
-    simd.avx512f._mm512_alignr_epi64::<1>(cast(high), cast(low))
+    simd.avx512f._mm512_alignr_epi64::<1>(cast(high), cast(low)),
+    |numbers| simd.avx512f._mm512_cvtps_pd(pod_read_unaligned(cast_slice(numbers)))
 );
 
 #[cfg(target_arch = "x86_64")]
 impl_lanes!(
     V3,
     |simd, low, high| simd.avx._mm256_shuffle_pd::<0b0101>(middle(simd, low, high), cast(high)),
-    simd.avx._mm256_shuffle_pd::<0b0101>(cast(low), middle(simd, low, high))
+    simd.avx._mm256_shuffle_pd::<0b0101>(cast(low), middle(simd, low, high)),
+    |numbers| simd.avx._mm256_cvtps_pd(pod_read_unaligned(cast_slice(numbers)))
 );
 
 /// The upper half of `low`, then the lower half of `high`.
@@ -255,7 +276,7 @@ impl Deref for Aligned {
 
     #[inline(always)]
     fn deref(&self) -> &[f64] {
-        bytemuck::cast_slice(&self.lines)
+        cast_slice(&self.lines)
     }
 }
 
@@ -281,9 +302,9 @@ mod tests {
             let n = size_of::<L::Vector>() / size_of::<f64>();
             let given = &self.0;
             let vector = |from: usize| -> L::Vector {
-                bytemuck::pod_read_unaligned(bytemuck::cast_slice(&given[from..from + n]))
+                pod_read_unaligned(cast_slice(&given[from..from + n]))
             };
-            let plain = |vector: L::Vector| bytemuck::cast_slice::<_, f64>(&[vector]).to_vec();
+            let plain = |vector: L::Vector| cast_slice::<_, f64>(&[vector]).to_vec();
             let (low, high) = (vector(0), vector(n));
             assert_eq!(plain(lanes.one_before(low, high)), given[n - 1..2 * n - 1]);
             assert_eq!(plain(lanes.one_after(low, high)), given[1..=n]);
@@ -294,6 +315,9 @@ mod tests {
             assert_eq!(plain(lanes.sub(low, high)), expected(|a, b| a - b));
             assert_eq!(plain(lanes.mul(low, high)), expected(|a, b| a * b));
             assert_eq!(plain(lanes.splat(given[3])), vec![given[3]; n]);
+            // All of them are short enough.
+            let short: Vec<f32> = given.iter().map(|&number| number as f32).collect();
+            assert_eq!(plain(lanes.widen(&short, 3)), given[3..3 + n]);
             n
         }
     }

@@ -107,7 +107,10 @@ fn assert_agrees(medium: &Medium<2>, source: [usize; 2], iterations: usize) {
     let shape = *medium.shape();
     let options = options(iterations, Step::Fixed(0.11));
     let heat = flow(medium, source.map(|i| i as f64), options, &Exec::single_threaded());
-    let conductances = dense(medium);
+    let mut conductances = dense(medium);
+    // The engine keeps what flows in a step in single precision.
+    let rounded = |c: &f64| f64::from((heat.step() * c) as f32) / heat.step();
+    conductances.iter_mut().for_each(|row| row.iter_mut().for_each(|c| *c = rounded(c)));
     let mut u = vec![0.0; shape.cells()];
     u[shape.position(source)] = 1.0;
     let mut sum = u.clone();
@@ -120,18 +123,20 @@ fn assert_agrees(medium: &Medium<2>, source: [usize; 2], iterations: usize) {
         }
         sum.iter_mut().zip(&u).for_each(|(sum, u)| *sum += u);
     }
+    let mut worst: f64 = 0.0;
     for cell in 0..shape.cells() {
         let ln_u = heat.ln_temperature().values()[cell];
         let index = shape.index(cell);
         // A weight that is nothing but rounding may be missing on one side.
         if u[cell] > 1e-290 {
-            assert!((ln_u - u[cell].ln()).abs() < 1e-11 * (1.0 + ln_u.abs()), "u of {index:?}");
+            worst = worst.max((ln_u - u[cell].ln()).abs() / (1.0 + ln_u.abs()));
             let ln_sum = heat.ln_exposure().unwrap().values()[cell];
-            assert!((ln_sum - sum[cell].ln()).abs() < 1e-11 * (1.0 + ln_sum.abs()), "{index:?}");
+            worst = worst.max((ln_sum - sum[cell].ln()).abs() / (1.0 + ln_sum.abs()));
         } else if u[cell] == 0.0 {
             assert_eq!(ln_u, f64::NEG_INFINITY, "{index:?}");
         }
     }
+    assert!(worst < 1e-12, "{worst}");
 }
 
 #[test]
@@ -174,7 +179,8 @@ fn the_result_depends_on_neither_threads_nor_vector_instructions() {
     check(&medium::given_tensor(field).unwrap(), [9.0, 21.0, 11.0]);
 }
 
-/// Once with tiles as they are, once with the cells shifted against them by rows and columns of walls.
+/// Once with tiles as they are, once with the cells shifted against them by rows and columns of
+/// walls.
 #[test]
 fn the_result_does_not_depend_on_tiles() {
     let size = [150, 140];
@@ -211,8 +217,8 @@ fn the_result_does_not_depend_on_tiles() {
     }
 }
 
-/// Heat stays on its side of a ring of walls one cell thick, however long the offsets are, and comes
-/// to all of that side.
+/// Heat stays on its side of a ring of walls one cell thick, however long the offsets are, and
+/// comes to all of that side.
 #[test]
 fn walls_do_not_leak() {
     let shape = Shape::new([61, 55]).unwrap();
@@ -288,16 +294,31 @@ fn heat_is_symmetric_and_conserved() {
 /// A tensor that is the same in all directions gives what the number does.
 #[test]
 fn the_unit_tensor_is_the_uniform_medium() {
-    let shape = Shape::with_spacing([70, 60], [1.0, 1.3]).unwrap();
-    let unit = TensorField::from_fn(shape, |_| [[1.0, 0.0], [0.0, 1.0]]);
-    let exec = Exec::single_threaded();
-    let tensor =
-        flow(&medium::given_tensor(unit).unwrap(), [30.0, 20.0], options(90, Step::Usual), &exec);
-    let number = flow(&medium::uniform(shape), [30.0, 20.0], options(90, Step::Usual), &exec);
-    assert_eq!(tensor.step(), number.step());
-    let logarithms = |heat: &Heat<2>| heat.ln_temperature().values().to_vec();
+    let shape = Shape::with_spacing([70, 60], [1.0, 2.0]).unwrap();
+    let tensor = constant(shape, [[1.0, 0.0], [0.0, 1.0]]);
+    let number = medium::uniform(shape);
+    let step = |medium: &Medium<2>, step| Explicit::new(medium, options(1, step)).unwrap().step();
+    assert_eq!(step(&tensor, Step::Usual), step(&number, Step::Usual));
+    assert_eq!(step(&tensor, Step::Auto), step(&number, Step::Auto));
+    // Exact in single precision.
+    let options = options(90, Step::Fixed(0.1875));
+    let logarithms = |medium: &Medium<2>| {
+        let heat = flow(medium, [30.0, 20.0], options, &Exec::single_threaded());
+        heat.ln_temperature().values().to_vec()
+    };
     for (a, b) in logarithms(&tensor).iter().zip(logarithms(&number)) {
         assert!(*a == b || (a - b).abs() < 1e-12 * (1.0 + a.abs()), "{a} and {b}");
+    }
+}
+
+/// Where a constant tensor has larger eigenvalues than 1 the usual step is as long as is safe.
+#[test]
+fn the_usual_step_is_stable_for_tensors_in_any_unit() {
+    let shape = Shape::new([20, 20]).unwrap();
+    for scale in [1e-3, 1.0, 50.0] {
+        let medium = constant(shape, along([2.0, 1.0], [scale, 0.1 * scale]));
+        let step = |step| Explicit::new(&medium, options(1, step)).unwrap().step();
+        assert_eq!(step(Step::Usual), step(Step::Auto).min(0.2));
     }
 }
 

@@ -19,11 +19,12 @@ type Vectors<const D: usize, const N: usize> = [[i128; D]; N];
 /// So `div(D grad u)` becomes a sum of second differences along the lattice that keeps u positive,
 /// and `x' D x` a sum of squares. Of each pair of opposite offsets the one that points forward in
 /// memory is given; none is a multiple of another whole one. A diagonal matrix gives the axes. A
-/// matrix whose eigenvalues differ by more than a factor of about 1e8 is first brought down to that.
+/// matrix whose eigenvalues differ by more than a factor of about 1e8 is first brought down to
+/// that.
 ///
-/// The offsets come from an obtuse superbase, which Selling's algorithm finds (Selling 1874; Fehrenbach
-/// & Mirebeau, "Sparse non-negative stencils for anisotropic diffusion", 2014). It runs in whole
-/// numbers: no rounding can make it go in circles or a weight negative.
+/// The offsets come from an obtuse superbase, which Selling's algorithm finds (Selling 1874;
+/// Fehrenbach & Mirebeau, "Sparse non-negative stencils for anisotropic diffusion", 2014). It runs
+/// in whole numbers: no rounding can make it go in circles or a weight negative.
 pub(crate) fn selling<const D: usize>(
     matrix: &Matrix<D>,
 ) -> impl Iterator<Item = ([i32; D], f64)> + use<D> {
@@ -44,8 +45,8 @@ fn axes<const D: usize>(matrix: &Matrix<D>) -> [([i32; D], f64); 6] {
     sum
 }
 
-/// The matrix, or if its eigenvalues differ too much for [`selling`], with something added to all of
-/// them.
+/// The matrix, or if its eigenvalues differ too much for [`selling`], with something added to all
+/// of them.
 pub(crate) fn conditioned<const D: usize>(matrix: &Matrix<D>) -> Matrix<D> {
     if is_diagonal(matrix) {
         return *matrix;

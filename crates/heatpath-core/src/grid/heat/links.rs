@@ -5,22 +5,24 @@ use crate::grid::stencil::{conditioned, selling, smallest_eigenvalue};
 use crate::grid::{Mask, Matrix, Shape, TensorField};
 use std::collections::BTreeMap;
 
-/// The part of the smallest eigenvalue of D that flows along the axes, whatever the directions of D.
+/// The part of the smallest eigenvalue of D that flows along the axes, whatever the directions of
+/// D.
 const AXIS_PART: f64 = 0.125;
 
 /// The pairs of cells between which heat flows, and their conductances, in cell units.
 ///
 /// The energy `grad u' D grad u` of a cell is a sum of `weight (u(cell + offset) - u(cell))^2` over
-/// the offsets of Selling's decomposition of D, half of it with each sign (Fehrenbach & Mirebeau 2014).
-/// So a pair has the mean of the weights that its two cells give to the offset between them, 0
-/// where a cell does not have that offset: that is why no harmonic mean is possible. All weights are positive, so heat is
-/// positive, and rows add up to nothing: heat is conserved.
+/// the offsets of Selling's decomposition of D, half of it with each sign (Fehrenbach & Mirebeau
+/// 2014). So a pair has the mean of the weights that its two cells give to the offset between them,
+/// 0 where a cell does not have that offset: that is why no harmonic mean is possible. All weights
+/// are positive, so heat is positive, and rows add up to nothing: heat is conserved.
 ///
-/// A pair whose segment leaves the grid or meets a wall does not exist, not even if it slips between
-/// two walls that touch at a corner. Along a border that D slants across, this could leave cells
-/// without any partner, in the corners first. Therefore an eighth of the smallest eigenvalue (at least
-/// a D-th of that) is taken out of D and given to the axes: heat comes at every step to all open neighbours that
-/// share a face, as in other media, and to no cell that cannot be reached through faces.
+/// A pair whose segment leaves the grid or meets a wall does not exist, not even if it slips
+/// between two walls that touch at a corner. Along a border that D slants across, this could leave
+/// cells without any partner, in the corners first. Therefore an eighth of the smallest eigenvalue
+/// (at least a D-th of that) is taken out of D and given to the axes: heat comes at every step to
+/// all open neighbours that share a face, as in other media, and to no cell that cannot be reached
+/// through faces.
 #[derive(Debug)]
 pub(super) struct Links<const D: usize> {
     shape: Shape<D>,
@@ -103,7 +105,8 @@ fn in_cells<const D: usize>(matrix: Matrix<D>, shape: &Shape<D>) -> Matrix<D> {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[i][j] * (scale[i] * scale[j])))
 }
 
-/// Offsets and weights whose sum of `weight offset offset'` is the matrix, the axes always among them.
+/// Offsets and weights whose sum of `weight offset offset'` is the matrix, the axes always among
+/// them.
 fn weights<const D: usize>(matrix: Matrix<D>) -> impl Iterator<Item = ([i16; D], f64)> {
     let mut rest = conditioned(&matrix);
     let axis_part = AXIS_PART * smallest_eigenvalue(&rest);

@@ -4,6 +4,13 @@
 //! result, [`Heat`], holds two fields in logarithms, because heat decays like `exp(-distance^2 / 4t)` and leaves every floating-point range behind: the
 //! temperature u at the end, and the exposure, which is u added up over all steps.
 //!
+//! D is a number or a symmetric matrix per cell (eq. 12). The matrix is the diffusion tensor, large
+//! along the directions in which heat is fast; the metric tensor by which lengths are measured,
+//! `sqrt(dx' (k D)^-1 dx)`, is its inverse over k. Heat stays positive whatever the anisotropy:
+//! matrices are written as sums of squares along the lattice (Fehrenbach & Mirebeau, "Sparse
+//! non-negative stencils for anisotropic diffusion", 2014), with offsets of several cells where D
+//! slants.
+//!
 //! Time and step are given in cell units: multiples of the smallest spacing squared, so that they
 //! do not depend on the unit of length.
 

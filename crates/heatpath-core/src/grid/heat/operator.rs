@@ -36,8 +36,8 @@ impl FaceMean {
 /// `k div(D grad u)` in flux form: what leaves a cell through a face enters its neighbour.
 ///
 /// The flux through a face is its conductance times the difference of u. Conductances are in cell
-/// units: D on the face, times (smallest spacing / spacing along the axis)^2. A face of a wall or of
-/// the border does not exist: its conductance is zero. Where D is a tensor, heat flows between
+/// units: D on the face, times (smallest spacing / spacing along the axis)^2. A face of a wall or
+/// of the border does not exist: its conductance is zero. Where D is a tensor, heat flows between
 /// pairs of cells further apart as well: its [`Links`].
 #[derive(Debug)]
 pub(super) struct Operator<'a, const D: usize> {

@@ -1,7 +1,7 @@
 //! Explicit heat where D is a tensor: one row, and the order of rows when several steps are made at
 //! once.
 
-use super::gather::{BUNDLE, Gather};
+use super::gather::{BUNDLE, Bundle, Gather};
 use super::kernel::{Extent, Window};
 use crate::simd::Lanes;
 use bytemuck::{cast_slice, pod_read_unaligned};
@@ -10,9 +10,9 @@ use std::ops::Range;
 impl<const D: usize> Window<D> {
     /// Advances all cells by what they gather from others.
     ///
-    /// The rows (in 3-D: planes) are passed over once by a front of all steps: each follows the one before as
-    /// closely as heat reaches and no closer, so that two copies of u are enough, of which the steps
-    /// write one in turn.
+    /// The rows (in 3-D: planes) are passed over once by a front of all steps: each follows the one
+    /// before as closely as heat reaches and no closer, so that two copies of u are enough, of
+    /// which the steps write one in turn.
     #[inline(always)]
     pub(super) fn gather<L: Lanes>(
         &mut self,
@@ -83,35 +83,36 @@ impl<const D: usize> Window<D> {
         let after = &mut after[place..][..bundles.len() * BUNDLE];
         let (after, _) = after.as_chunks_mut::<BUNDLE>();
         let first = extent.low[0] / BUNDLE + bundles.start;
-        let terms = gather.bundles(row, first, bundles.len());
-        for ((bundle, after), (terms, shares)) in after.iter_mut().enumerate().zip(terms) {
-            let here = place + bundle * BUNDLE;
-            let values = terms.iter().map(
-                #[inline(always)]
-                |&term| {
-                    let from = here.wrapping_add_signed(self.shifts[term as usize]);
-                    &before[from..from + BUNDLE]
-                },
-            );
-            add_up(lanes, shares, values, after);
+        let bundles = gather.bundles(row, first, bundles.len());
+        for ((number, after), bundle) in after.iter_mut().enumerate().zip(bundles) {
+            let here = place + number * BUNDLE;
+            add_up(lanes, &bundle, before, here, &self.shifts, after);
         }
     }
 }
 
-/// The sum of shares of values.
+/// What the cells of a bundle have after a step that stand at `here` before it.
 #[inline(always)]
-fn add_up<'a, L: Lanes>(
+fn add_up<L: Lanes>(
     lanes: L,
-    shares: &[[f64; BUNDLE]],
-    values: impl Iterator<Item = &'a [f64]>,
+    bundle: &Bundle,
+    before: &[f64],
+    here: usize,
+    shifts: &[isize],
     after: &mut [f64; BUNDLE],
 ) {
     let n = size_of::<L::Vector>() / size_of::<f64>();
     // As many vectors as a bundle has at the lowest level.
     let mut sums = [lanes.splat(0.0); BUNDLE / 2];
-    for (shares, values) in shares.iter().zip(values) {
+    let own = &before[here..here + BUNDLE];
+    for (part, sum) in sums.iter_mut().take(BUNDLE / n).enumerate() {
+        *sum = lanes.mul(read::<L>(bundle.kept, part * n), read::<L>(own, part * n));
+    }
+    for (&term, shares) in bundle.terms.iter().zip(bundle.shares) {
+        let from = here.wrapping_add_signed(shifts[term as usize]);
+        let values = &before[from..from + BUNDLE];
         for (part, sum) in sums.iter_mut().take(BUNDLE / n).enumerate() {
-            let flow = lanes.mul(read::<L>(shares, part * n), read::<L>(values, part * n));
+            let flow = lanes.mul(lanes.widen(shares, part * n), read::<L>(values, part * n));
             *sum = lanes.add(*sum, flow);
         }
     }

@@ -101,11 +101,11 @@ pub(super) struct Extent<const D: usize> {
 }
 
 impl<const D: usize> Extent<D> {
-    /// The cells along an axis that are further than `margin` from the ends of the window, except at the
-    /// border of the grid.
+    /// The cells along an axis that are further than `margin` from the ends of the window, except
+    /// at the border of the grid.
     ///
-    /// What lies outside the window is not known, so along each axis some cells more become wrong with
-    /// every step. Along x whole rows are computed.
+    /// What lies outside the window is not known, so along each axis some cells more become wrong
+    /// with every step. Along x whole rows are computed.
     #[inline(always)]
     pub(super) fn inner(&self, axis: usize, margin: usize) -> Range<usize> {
         let (starts, ends) = self.is_border[axis];
@@ -129,7 +129,8 @@ impl<const D: usize> Window<D> {
     ) -> Self {
         // Behind the last row along each axis one more is read, through faces without conductance.
         let mut strides = [0; D];
-        let mut numbers = room[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE;
+        let multiple = stencil.row_multiple();
+        let mut numbers = room[0].next_multiple_of(multiple) + multiple;
         for axis in 1..D {
             strides[axis] = numbers;
             numbers *= room[axis] + 1;
@@ -153,8 +154,9 @@ impl<const D: usize> Window<D> {
                 window.inflow_middle = Aligned::zeros(strides[1]);
             }
             Stencil::Gather(gather) => {
-                // What lies beyond the ends of the first and the last row is read, and counts for nothing.
-                window.first = gather.reach()[0].next_multiple_of(ROW_MULTIPLE);
+                // What lies beyond the ends of the first and the last row is read, and counts for
+                // nothing.
+                window.first = gather.reach()[0].next_multiple_of(multiple);
                 numbers += 2 * window.first;
                 window.other = Aligned::zeros(numbers);
                 window.shifts = gather.shifts(&strides);

@@ -1,7 +1,8 @@
 //! Explicit Euler: `u' = u + step k div(D grad u)`.
 //!
-//! What is computed stands in `kernel.rs`, one row at a time. In which order, on which thread and
-//! in which range of numbers stands in `schedule.rs` and `scaled.rs`, and changes no bit of it.
+//! What is computed stands in `kernel.rs`, one row at a time, and where D is a tensor in
+//! `gather.rs` and `gathering.rs`. In which order, on which thread and in which range of numbers
+//! stands in `schedule.rs` and `scaled.rs`, and changes no bit of it.
 
 mod gather;
 mod gathering;
@@ -37,7 +38,10 @@ pub enum Duration {
 /// The length of a time step, in cell units (multiples of the smallest spacing squared).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Step {
-    /// [`Step::usual`]: 0.2 in images, the paper's choice, and 0.1333 in volumes.
+    /// [`Step::usual`]: 0.2 in images, the paper's choice, and 0.1333 in volumes. Where D is a
+    /// tensor and that is too large, [`Step::SAFE_FRACTION`] of the largest stable step: the usual
+    /// one is stable where a constant D has no eigenvalue above 1, but where its directions turn,
+    /// more may flow into a cell, and tensors come in any unit.
     #[default]
     Usual,
     /// Exactly this.
@@ -69,7 +73,7 @@ pub struct HeatOptions {
     pub duration: Duration,
     /// The length of a time step.
     pub step: Step,
-    /// How the diffusion coefficient of a face is made from its two cells.
+    /// How the diffusion coefficient of a face is made from its two cells, where it is a number.
     pub face_mean: FaceMean,
     /// Whether to keep the exposure ([`Heat::ln_exposure`]), which paths follow. It takes a tenth of
     /// the time and 8 bytes a cell; distances alone do not need it. The default is true.
@@ -142,7 +146,9 @@ const MOST_ITERATIONS: f64 = 1e12;
 ///
 /// Memory while heat flows, beyond the medium, in numbers of 8 bytes a cell: two for u before and
 /// after a visit, one for the exposure if it is kept, and one for the conductances across each axis
-/// if D varies or there are walls. So 2 to 5 in a picture and 2 to 6 in a volume.
+/// if D varies or there are walls. So 2 to 5 in a picture and 2 to 6 in a volume. Where D is a
+/// tensor the conductances take some 6 to 12 in a picture and 12 to 30 in a volume, the more the
+/// faster its directions turn, and about twice that while they are prepared.
 #[derive(Debug)]
 pub struct Explicit<'a, const D: usize> {
     medium: &'a Medium<D>,
@@ -280,7 +286,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Fields<D>, HeatError> {
-        for tiling in Tiling::all(self.stencil.reach()) {
+        for tiling in Tiling::all(&self.stencil) {
             let mut heat = Tiles::new(self.medium.shape(), tiling);
             shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
             match heat.march(steps, report, exec)? {

@@ -1,17 +1,17 @@
 //! In which order rows are computed: tiles, several steps a visit, threads, range.
 //!
 //! The grid is cut into tiles. A tile is advanced by several steps at a time in a small scratch
-//! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each step
-//! leaves less that is right, until the tile itself is left. The cells of the
-//! margin are computed by more than one tile; in return a tile is visited once for several steps
-//! and stays in cache, tiles depend on nothing but the state before the visit, so they can run on
-//! any thread in any order with the same result, and each tile keeps an exponent of its own.
-//! Heat moves one cell a step (in tensor media as far as the longest offset), so a tile without heat
-//! in it or around it is passed over.
+//! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each
+//! step leaves less that is right, until the tile itself is left. The cells of the margin are
+//! computed by more than one tile; in return a tile is visited once for several steps and stays in
+//! cache, tiles depend on nothing but the state before the visit, so they can run on any thread in
+//! any order with the same result, and each tile keeps an exponent of its own. Heat moves one cell
+//! a step (in tensor media as far as the longest offset), so a tile without heat in it or around it
+//! is passed over.
 
 use super::kernel::{Extent, Window};
 use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
-use super::stencil::{ROW_MULTIPLE, Stencil};
+use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
 use crate::simd::{Lanes, WithLanes};
@@ -39,28 +39,31 @@ pub(super) struct Tiling<const D: usize> {
     steps: usize,
     /// How many cells heat moves along each axis in one step at most.
     reach: [usize; D],
+    /// Windows begin at a multiple of so many cells along x, where vectors of the stencil do.
+    row_multiple: usize,
 }
 
 impl<const D: usize> Tiling<D> {
     /// The ways to cut a grid, in the order in which they are tried.
     ///
     /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
-    /// they must hold a wider range of values, and in 3-D outgrow the cache.
-    /// Where heat moves further than a cell in a step, larger tiles have room for its margins, which
-    /// are not wider than a quarter of a tile if one step is not.
-    pub(super) fn all(reach: [usize; D]) -> impl Iterator<Item = Self> {
+    /// they must hold a wider range of values, and in 3-D outgrow the cache. Where heat moves
+    /// further than a cell in a step, larger tiles have room for its margins, which are not wider
+    /// than a quarter of a tile if one step is not.
+    pub(super) fn all(stencil: &Stencil<D>) -> impl Iterator<Item = Self> + use<D> {
+        let (reach, row_multiple) = (stencil.reach(), stencil.row_multiple());
         let furthest = reach.into_iter().max().unwrap_or(1);
         let edges: &[usize] = match D {
-            3 => &[32, 16, 8],
-            _ if furthest > 1 => &[128, 64, 32, 16, 8],
-            _ => &[64, 32, 16, 8],
+            3 => &[32, 16, SHORTEST_EDGE],
+            _ if furthest > 1 => &[128, 64, 32, 16, SHORTEST_EDGE],
+            _ => &[64, 32, 16, SHORTEST_EDGE],
         };
         let longest = if D < 3 { None } else { Some((128, edges[0])) };
         let others = edges.iter().flat_map(|&edge| [(2 * edge, edge), (edge, edge)]);
         longest.into_iter().chain(others).map(move |(length, edge)| {
             let steps = (edge / 8).min(edge / 4 / furthest).clamp(1, MOST_STEPS);
             let edge = std::array::from_fn(|axis| if axis == 0 { length } else { edge });
-            Self { edge, steps, reach }
+            Self { edge, steps, reach, row_multiple }
         })
     }
 
@@ -71,12 +74,23 @@ impl<const D: usize> Tiling<D> {
         self.edge.iter().zip(self.reach).map(|(edge, reach)| edge + 2 * reach * self.steps).sum()
     }
 
-    /// Where a tile begins along x in its window: at least the margin, and such that the rows of the
-    /// window begin at a vector of the stencil.
-    fn margin_x(&self) -> usize {
-        (self.reach[0] * self.steps).next_multiple_of(ROW_MULTIPLE)
+    /// The room that windows need along each axis.
+    fn room(&self) -> [usize; D] {
+        std::array::from_fn(|axis| {
+            let margin = self.reach[axis] * self.steps;
+            let around = if axis == 0 {
+                // Tiles begin at a multiple of the shortest edge.
+                2 * margin.next_multiple_of(self.row_multiple) + self.row_multiple - SHORTEST_EDGE
+            } else {
+                2 * margin
+            };
+            self.edge[axis] + around
+        })
     }
 }
+
+/// The shortest edge of a tile.
+const SHORTEST_EDGE: usize = 8;
 
 /// The most steps that a visit takes.
 const MOST_STEPS: usize = 8;
@@ -205,9 +219,7 @@ impl<const D: usize> Tiles<D> {
 
     /// Where a thread advances its tile.
     fn window(&self, steps: &Steps<D>) -> Window<D> {
-        let Tiling { edge, steps: count, reach } = self.tiling;
-        let margin = |axis| if axis == 0 { self.tiling.margin_x() } else { reach[axis] * count };
-        let room = std::array::from_fn(|axis| edge[axis] + 2 * margin(axis));
+        let (room, count) = (self.tiling.room(), self.tiling.steps);
         let mut window = Window::new(room, count, steps.stencil, steps.exposure);
         window.rate.fill(steps.step);
         window.rate_is_uniform = steps.factor.is_none();
@@ -233,10 +245,10 @@ impl<const D: usize> Tiles<D> {
         }
     }
 
-    /// What a window holds for a tile and the range around it.
-    fn extent(&self, tile: Range<D>, around: Range<D>) -> Extent<D> {
+    /// What a window holds for a range around a tile.
+    fn extent(&self, around: Range<D>) -> Extent<D> {
         let (mut low, high, size) = (around.low, around.high, self.shape.size());
-        low[0] = tile.low[0].saturating_sub(self.tiling.margin_x());
+        low[0] -= low[0] % self.tiling.row_multiple;
         Extent {
             low,
             size: std::array::from_fn(|axis| high[axis] - low[axis]),
@@ -288,7 +300,7 @@ impl<const D: usize> WithLanes for Visit<'_, D> {
             tile.next.largest = 0.0;
             return;
         };
-        let extent = tiles.extent(inside, around);
+        let extent = tiles.extent(around);
         tile.has_lost = tiles.load(around, extent.low, exponent, steps, window);
         window.advance(lanes, steps.stencil, &extent, count);
         tile.has_lost |= tiles.store(inside, extent.low, window, &mut tile.next);

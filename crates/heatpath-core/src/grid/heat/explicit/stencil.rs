@@ -1,7 +1,7 @@
 //! What flows between which cells, laid out for the kernels.
 
 use super::super::operator::Operator;
-use super::gather::Gather;
+use super::gather::{BUNDLE, Gather};
 use crate::grid::Shape;
 use crate::simd::Aligned;
 
@@ -22,6 +22,14 @@ impl<const D: usize> Stencil<D> {
         match operator.links() {
             Some(links) => Self::Gather(Gather::new(operator, links, step)),
             None => Self::Faces(FaceStencil::new(operator)),
+        }
+    }
+
+    /// Rows begin at a multiple of so many cells, and are computed that many at a time.
+    pub(super) fn row_multiple(&self) -> usize {
+        match self {
+            Self::Faces(_) => ROW_MULTIPLE,
+            Self::Gather(_) => BUNDLE,
         }
     }
 

@@ -18,7 +18,7 @@ pub struct ImplicitOptions {
     pub time: f64,
     /// The number of steps that the time is divided into. From 1 to 1000; default 1.
     pub steps: usize,
-    /// How the diffusion coefficient of a face is made from its two cells.
+    /// How the diffusion coefficient of a face is made from its two cells, where it is a number.
     pub face_mean: FaceMean,
     /// The most memory that the factorisation may take, in bytes; default 4 GiB.
     pub memory_limit: usize,

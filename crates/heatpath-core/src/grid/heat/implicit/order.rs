@@ -8,11 +8,11 @@ const SMALLEST_SIDE: usize = 4;
 /// Nested dissection of the open cells.
 ///
 /// A plane of cells across the longest side is put last, the two halves beside it, which do not
-/// touch each other, before it, each in the same way. Where cells are coupled over a `reach` of more than one cell along the axis, the plane is as
-/// thick as that. The factor then has of the order of
-/// `n log n` entries for a picture of n cells and `n^(4/3)` for a volume. Measured on pictures of
-/// 300 to 1024 cells a side, factoring takes 0.5 to 0.7 of the time it takes in the order of approximate
-/// minimum degree, and finding the pattern a third to a half.
+/// touch each other, before it, each in the same way. Where cells are coupled over a `reach` of
+/// more than one cell along the axis, the plane is as thick as that. The factor then has of the
+/// order of `n log n` entries for a picture of n cells and `n^(4/3)` for a volume. Measured on
+/// pictures of 300 to 1024 cells a side, factoring takes 0.5 to 0.7 of the time it takes in the
+/// order of approximate minimum degree, and finding the pattern a third to a half.
 pub(super) fn nested_dissection<const D: usize>(mask: &Mask<D>, reach: [usize; D]) -> Vec<usize> {
     let mut order = Vec::with_capacity(mask.shape().cells());
     let dissection = Dissection { shape: mask.shape(), reach };
