@@ -16,6 +16,8 @@ F64 = 8
 MEDIUM_UNIFORM = 1
 MEDIUM_CONDUCTIVITY = 2
 SOLVER_IMPLICIT = 1
+NORMALIZED = 1
+EIKONAL = 3
 
 Struct = TypeVar("Struct", bound=ctypes.Structure)
 
@@ -60,6 +62,9 @@ class Options(ctypes.Structure):
         ("reserved", c_uint32),
         ("reference", c_double),
         ("memory", c_uint64),
+        ("farthest", c_double),
+        ("tensor", c_void_p),
+        ("tensor_count", c_uint64),
     )
 
 
@@ -90,11 +95,17 @@ class Library:
         return self._function("version_string")().decode()
 
     def distance(
-        self, picture: np.ndarray, source: tuple[int, ...], medium: int, threads: int
+        self,
+        picture: np.ndarray,
+        source: tuple[int, ...],
+        medium: int,
+        threads: int,
+        estimator: int = NORMALIZED,
     ) -> np.ndarray:
         """Return the distance of every pixel from `source`, both in numpy's order of axes."""
         result = np.empty_like(picture)
         options = self._options(medium, threads)
+        options.estimator = estimator
         self._check(
             self._function("distance")(
                 byref(self._buffer(picture)),

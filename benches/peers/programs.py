@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from heatpath import MEDIUM_CONDUCTIVITY, MEDIUM_UNIFORM, Library
+from heatpath import EIKONAL, MEDIUM_CONDUCTIVITY, MEDIUM_UNIFORM, NORMALIZED, Library
 from problems import Problem, factored_fast_marching
 
 Timed = Callable[[], np.ndarray | None]
@@ -27,13 +27,15 @@ def library() -> Library:
     return Library(Path(os.environ["HEATPATH_LIBRARY"]))
 
 
-def heatpath(threads: int) -> Callable[[Problem], Timed]:
-    """From the picture: medium, heat and distance. No thread outlives the call."""
+def heatpath(threads: int, estimator: int = NORMALIZED) -> Callable[[Problem], Timed]:
+    """From the picture: medium, and distance by heat or exactly. No thread outlives the call."""
     loaded = library()
 
     def prepare(problem: Problem) -> Timed:
         medium = MEDIUM_UNIFORM if problem.uniform else MEDIUM_CONDUCTIVITY
-        return lambda: loaded.distance(problem.picture, problem.source, medium, threads)
+        return lambda: loaded.distance(
+            problem.picture, problem.source, medium, threads, estimator
+        )
 
     return prepare
 
@@ -120,6 +122,7 @@ def distance_programs() -> list[Program]:
     return [
         Program("heatpath, 1 thread", heatpath(1)),
         Program("heatpath, all threads", heatpath(0)),
+        Program("heatpath, eikonal", heatpath(1, EIKONAL)),
         Program("scikit-fmm, order 2", scikit_fmm(2)),
         Program("scikit-fmm, order 1", scikit_fmm(1)),
         Program("eikonalfm, factored, order 2", eikonalfm_factored),
