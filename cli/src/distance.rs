@@ -93,7 +93,7 @@ fn line(report: &Report) -> String {
     let Report { size, min, max, mean, reached, unreached, iterations, seconds, .. } = report;
     let work = match iterations {
         Some(iterations) => format!("{iterations} iterations in {:.2} s", seconds.heat),
-        None => format!("exact, in {:.2} s", seconds.distance),
+        None => format!("{} in {:.2} s", report.estimator, seconds.distance),
     };
     format!(
         "{} cells: distance {min:.6} to {max:.6}, mean {mean:.6}; {reached} cells reached, \

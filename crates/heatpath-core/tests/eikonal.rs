@@ -4,6 +4,7 @@
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions, NOT_REACHED, Order};
 use heatpath_core::grid::medium::{self, Form, Medium};
+use heatpath_core::grid::path::{Descent, Ending, PathOptions};
 use heatpath_core::grid::{Grid, Matrix, Shape, Sources, TensorField};
 use std::f64::consts::PI;
 
@@ -292,4 +293,34 @@ fn a_march_ends_early() {
     }
     assert!(some.values().iter().any(|&distance| distance == NOT_REACHED));
     targets.iter().for_each(|&target| assert_eq!(some.sample(target), all.sample(target)));
+}
+
+#[test]
+fn a_path_is_a_cycloid() {
+    // The curve of quickest descent: cost 1 / sqrt(z) from one cusp almost to the next.
+    let h = 2.0 * PI / 300.0;
+    let domain = Domain::new([300, 110], h, [0.5 * h, 0.5 * h]);
+    let medium = domain.isotropic(|[_, z]| 1.0 / z.sqrt());
+    let cycloid = |t: f64| [t - t.sin(), 1.0 - t.cos()];
+    let pixel = |p: [f64; 2]| p.map(|x| x / h - 0.5);
+    let sources = Sources::new(&[pixel(cycloid(0.2))], medium.mask()).unwrap();
+    let exec = Exec::single_threaded();
+    let eikonal = Eikonal::new(&medium, &exec).unwrap();
+    let distances = eikonal.distance(&sources, &EikonalOptions::default(), &exec).unwrap();
+    let descent = Descent::of_distances(&distances, &sources, &medium);
+    let end = pixel(cycloid(2.0 * PI - 0.2));
+    let path = descent.path(end, &distances, PathOptions::default()).unwrap();
+    assert_eq!(path.ending, Ending::Source(0));
+    let exact: Vec<[f64; 2]> =
+        (0..20_000).map(|i| pixel(cycloid(0.15 + 2.98e-4 * PI * f64::from(i) / 3.0))).collect();
+    let off = |&p: &[f64; 2]| exact.iter().map(|&q| length(p, q)).fold(f64::INFINITY, f64::min);
+    let strayed: Vec<f64> = path.points.iter().map(off).collect();
+    let mean = strayed.iter().sum::<f64>() / strayed.len() as f64;
+    let most = strayed.into_iter().fold(0.0, f64::max);
+    println!("a cycloid of 300 cells: the path strays by {mean:.3} cells, at most {most:.3}");
+    // Along the cycloid it takes as long as the parameter grows, times sqrt 2.
+    let exact = 2_f64.sqrt() * (2.0 * PI - 0.4);
+    println!("its length {:.5}, exactly {exact:.5}", path.distance);
+    assert!(mean < 0.2 && most < 0.6, "{mean} {most}");
+    assert!((path.distance / exact - 1.0).abs() < 5e-3, "{} {exact}", path.distance);
 }

@@ -109,8 +109,8 @@ pub enum EikonalError {
 ///
 /// - *Factored.* At a source the distance has a kink that spoils the order of every scheme.
 ///   Here `T = r tau`, where r is the distance in the metric of the source, whose derivatives are exact;
-///   differences are taken of the smooth tau (Treister & Haber 2016). In a constant medium the result
-///   is exact to rounding. Sources may lie anywhere between cell centres: in the cells beside the source,
+///   differences are taken of the smooth tau (Treister & Haber 2016). In a constant isotropic medium
+///   the result is exact to rounding. Sources may lie anywhere between cell centres: in the cells beside the source,
 ///   towards which no neighbour lies, the derivative of r alone counts.
 /// - *Walls* are cells that take no part; of an anisotropic medium an offset that meets a wall on its
 ///   way takes no part either. Nothing leaks, and a way around a corner that two walls share does not

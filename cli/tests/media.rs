@@ -1,0 +1,89 @@
+//! Media of directions and tubes, and the heat method, through the command.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+mod common;
+
+use common::Bench;
+
+/// The lowest cost of a picture of 100 x 80 pixels along a bright line that goes up and down once.
+fn line(bench: &Bench) {
+    bench.write_npy("line.npy", &[80, 100], |cell| {
+        let (x, y) = ((cell % 100) as f64, (cell / 100) as f64);
+        let off = y - 40.0 - 25.0 * (x / 16.0).sin();
+        (-off * off / 8.0).exp()
+    });
+}
+
+#[test]
+fn tubes_are_found_and_followed() {
+    let bench = Bench::new();
+    line(&bench);
+    let paths = |medium: &str| {
+        let report = bench.json(&format!(
+            "path line.npy --medium {medium} --source 3,44.7 --end 97,34.5 --estimator eikonal --json"
+        ));
+        report["paths"][0]["length"].as_f64().unwrap()
+    };
+    let straight = paths("uniform");
+    for medium in [
+        "vesselness",
+        "vesselness --anisotropy 0.9 --scale 1.5,2.5",
+        "vesselness --polarity both --power 3 --floor 1e-5",
+    ] {
+        assert!(paths(medium) > 1.3 * straight, "{medium} cuts short");
+    }
+    // In the dark there is no tube, but along each side of the bright one.
+    let bright = bench.json("medium line.npy --medium vesselness --json");
+    let dark = bench.json("medium line.npy --medium vesselness --polarity dark --json");
+    assert!(bright["mean"] != dark["mean"] && bright["max"].as_f64().unwrap() > 0.5);
+}
+
+#[test]
+fn heat_runs_along_directions() {
+    let bench = Bench::new();
+    line(&bench);
+    for options in [
+        "--tensor hessian --scale 2 --polarity bright",
+        "--tensor structure --scale 1.5 --anisotropy 0.8",
+        "--tensor gradient --anisotropy 0.5",
+    ] {
+        for solver in ["explicit --iterations 300", "implicit"] {
+            let report = bench.json(&format!(
+                "path line.npy --medium tensor {options} --solver {solver} --source 3,44.7 --end \
+                 40,62 --json"
+            ));
+            assert_eq!(report["paths"][0]["ended"], "source", "{options} {solver}");
+        }
+    }
+}
+
+#[test]
+fn the_heat_method_makes_maps_and_paths() {
+    let bench = Bench::with_picture();
+    let report = bench.json(
+        "distance curve.png --medium uniform --estimator heat-method --source 50,40 -o d.npy --json",
+    );
+    assert_eq!(report["estimator"], "heat-method");
+    let (_, values) = bench.npy("d.npy");
+    for (cell, value) in values.iter().enumerate() {
+        let exact = f64::hypot((cell % 100) as f64 - 50.0, (cell / 100) as f64 - 40.0);
+        assert!((value - exact).abs() < 0.05, "{cell}: {value}, not {exact}");
+    }
+    let report =
+        bench.json("path curve.png --estimator heat-method --source 50,40 --end 20,20 --json");
+    assert_eq!(report["paths"][0]["ended"], "source");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let bench = Bench::new();
+    line(&bench);
+    let heat_method = "distance line.npy --source 50,40 --estimator heat-method --json";
+    bench.fails(&format!("{heat_method} --iterations 5"), 2, &["--iterations", "heat-method"]);
+    bench.fails(&format!("{heat_method} --medium tensor"), 2, &["tensors"]);
+    bench.fails(&format!("{heat_method} --time 0"), 2, &["time"]);
+    let medium = "medium line.npy --json --medium";
+    bench.fails(&format!("{medium} tensor --anisotropy 1"), 2, &["anisotropy", "0.9998"]);
+    bench.fails(&format!("{medium} tensor --scale 1,2"), 2, &["--scale", "one number"]);
+    bench.fails(&format!("{medium} vesselness --scale -1"), 2, &["-1"]);
+}
