@@ -19,13 +19,13 @@ use std::time::Instant;
 
 /// What the options of a command ask for.
 pub(crate) struct Plan {
-    method: Method,
+    approach: Approach,
     /// The name of the estimator.
     pub(crate) estimator: &'static str,
     threads: usize,
 }
 
-enum Method {
+enum Approach {
     Heat(HeatPlan),
     HeatMethod(HeatMethodPlan),
     Eikonal(EikonalPlan),
@@ -39,46 +39,46 @@ impl Plan {
                 "--farthest limits exact distances: it needs `--estimator eikonal`",
             ));
         }
-        let heat = |readout| HeatPlan::new(&args.heat, readout).map(Method::Heat);
-        let (method, estimator) = match args.estimator {
+        let heat = |readout| HeatPlan::new(&args.heat, readout).map(Approach::Heat);
+        let (approach, estimator) = match args.estimator {
             EstimatorArg::Varadhan => (heat(Readout::Varadhan)?, "varadhan"),
             EstimatorArg::Normalized => (heat(Readout::Normalized)?, "normalized"),
             EstimatorArg::HeatMethod => {
-                (Method::HeatMethod(HeatMethodPlan::new(&args.heat)?), "heat-method")
+                (Approach::HeatMethod(HeatMethodPlan::new(&args.heat)?), "heat-method")
             }
-            EstimatorArg::Eikonal => (Method::Eikonal(EikonalPlan::new(args)?), "eikonal"),
+            EstimatorArg::Eikonal => (Approach::Eikonal(EikonalPlan::new(args)?), "eikonal"),
         };
-        Ok(Self { method, estimator, threads: args.threads })
+        Ok(Self { approach, estimator, threads: args.threads })
     }
 
     /// The name of the solver of heat.
     pub(crate) fn solver(&self) -> Option<&'static str> {
-        match &self.method {
-            Method::Heat(plan) => Some(plan.solver()),
-            Method::HeatMethod(_) | Method::Eikonal(_) => None,
+        match &self.approach {
+            Approach::Heat(plan) => Some(plan.solver()),
+            Approach::HeatMethod(_) | Approach::Eikonal(_) => None,
         }
     }
 
     /// Why an end was not reached.
     pub(crate) fn not_reached(&self) -> &'static str {
-        match self.method {
-            Method::Heat(_) => "no heat has arrived there; use more --iterations",
-            Method::HeatMethod(_) => "no heat has arrived there",
-            Method::Eikonal(_) => "it lies beyond --farthest",
+        match self.approach {
+            Approach::Heat(_) => "no heat has arrived there; use more --iterations",
+            Approach::HeatMethod(_) => "no heat has arrived there",
+            Approach::Eikonal(_) => "it lies beyond --farthest",
         }
     }
 
     /// What takes the time.
     fn work(&self) -> &'static str {
-        match self.method {
-            Method::Heat(_) => "heat",
-            Method::HeatMethod(_) => "heat method",
-            Method::Eikonal(_) => "fast marching",
+        match self.approach {
+            Approach::Heat(_) => "heat",
+            Approach::HeatMethod(_) => "heat method",
+            Approach::Eikonal(_) => "fast marching",
         }
     }
 }
 
-impl Method {
+impl Approach {
     fn solve<const D: usize>(
         &self,
         medium: &Medium<D>,
@@ -157,7 +157,7 @@ pub(crate) fn solve<'a, const D: usize>(
         }
     });
     let start = Instant::now();
-    let solution = plan.method.solve(medium, &sources, ends, &exec);
+    let solution = plan.approach.solve(medium, &sources, ends, &exec);
     bar.finish_and_clear();
     let Solution { heat, distances, heat_seconds } = solution?;
     let distance_seconds = start.elapsed().as_secs_f64() - heat_seconds;

@@ -189,7 +189,7 @@ impl<const D: usize, const N: usize> Stencil<D, N> for Lattice<D, N> {
         for (direction, term) in self.terms[place].iter().enumerate() {
             let vector = self.vector(place, direction);
             (0..D).for_each(|i| {
-                (0..D).for_each(|j| tensor[i][j] += term.weight * vector[i] * vector[j])
+                (0..D).for_each(|j| tensor[i][j] += term.weight * vector[i] * vector[j]);
             });
         }
         let metric = inverse(&tensor);
