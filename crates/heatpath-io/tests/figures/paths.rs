@@ -14,7 +14,6 @@ use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
 use heatpath_core::grid::{Grid, Sources};
 use heatpath_io::colour::viridis;
 use image::{Rgb, RgbImage};
-use std::f64::consts::TAU;
 
 /// The path by heat that has flowed for some automatic steps, and its distances.
 fn by_heat(
@@ -115,8 +114,8 @@ fn distance_panel(distances: &DistanceMap<2>) -> RgbImage {
 /// Figure 5: as the anisotropy grows, the path goes from a straight line to the half circle.
 ///
 /// Around the middle the metric is that of a cone: `dr^2 / l1 + r^2 da^2`, whose shortest paths are
-/// straight once it is unrolled, `r(a) = r0 cos(b / 2) / cos(sqrt(l1) a - b / 2)` with
-/// `b = sqrt(l1)` times the whole angle. Exactly opposite ends would have two shortest paths.
+/// straight once it is unrolled, `r(a) = r0 cos(sqrt(l1) w / 2) / cos(sqrt(l1) a)` with w the whole
+/// angle and a the angle from its middle. Exactly opposite ends would have two shortest paths.
 #[test]
 fn figure_5_anisotropy() {
     const RADIUS: f64 = 80.0;
@@ -130,18 +129,23 @@ fn figure_5_anisotropy() {
         let paths =
             [by_heat(&medium, ends, 2000).0, by_fast_marching(&medium, ends, Order::Second)];
         let shrink = ((1.0 - anisotropy) / (1.0 + anisotropy)).sqrt();
-        let half = 0.5 * shrink * whole;
         let off = |[x, y]: [f64; 2]| {
-            let angle = (y - CENTRE[1]).atan2(x - CENTRE[0]) - first;
-            let exact = RADIUS * half.cos() / (shrink * angle.rem_euclid(TAU) - half).cos();
+            let (sin, cos) = (first + 0.5 * whole).sin_cos();
+            let (dx, dy) = (x - CENTRE[0], y - CENTRE[1]);
+            let from_middle = (dy * cos - dx * sin).atan2(dx * cos + dy * sin);
+            let exact = RADIUS * (0.5 * shrink * whole).cos() / (shrink * from_middle).cos();
             (radius([x, y]) - exact).abs()
         };
-        let straying = paths.each_ref().map(|path| mean_along(path, off));
+        let straying = paths
+            .each_ref()
+            .map(|path| path.points.iter().map(|&point| off(point)).fold(0.0, f64::max));
         let radii = paths.each_ref().map(|path| mean_along(path, radius) / RADIUS);
         println!(
             "A = {anisotropy}, heat and fast marching: radius {radii:.4?}, off {straying:.3?}"
         );
-        assert!(straying.iter().all(|&off| off < 0.25), "from the closed form: {straying:?}");
+        // Narrow as the cone is at 0.99, the last step onto the source, from up to a cell away, shows.
+        let most = if anisotropy < 0.9 { 0.5 } else { 0.6 };
+        assert!(straying.iter().all(|&off| off < most), "from the closed form: {straying:?}");
         assert!(radii[0] > before[0] && radii[1] > before[1] && radii[0] < 1.0);
         before = radii;
         panels.push(paths_panel(&image, [&paths[1], &paths[0]]));
