@@ -1,10 +1,11 @@
-//! The paper's figures 1 to 4 remade on generated pictures.
+//! The paper's figures 1 to 6, 9 and 10 remade on generated pictures.
 //!
 //! Each test holds what the figure shows as a number, and the figure itself: the pictures in
 //! `docs/figures` are compared with what is drawn now. `HEATPATH_BLESS=1` draws them anew; a
 //! difference leaves a picture of three panels (expected, drawn, difference) beside the build.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+mod paths;
 mod scenes;
 
 use heatpath_core::Exec;

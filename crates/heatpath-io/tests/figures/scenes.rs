@@ -1,7 +1,7 @@
 //! Generated pictures like those of the paper's figures: 300 x 300, grey values from 0 to 1.
 
 use heatpath_core::grid::{Grid, Shape};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 const SIDE: usize = 300;
 
@@ -73,4 +73,88 @@ pub(crate) fn thin_line() -> Grid<f64, 2> {
         let ground = if x < 150.0 { 0.5 } else { 0.6 };
         if (y - thin_line_at(x)).abs() < 1.0 { ground - 0.3 } else { ground }
     })
+}
+
+/// The middle of the pictures of figures 5 and 10.
+pub(crate) const CENTRE: [f64; 2] = [149.5; 2];
+
+/// The point at `radius` and `angle` around the middle.
+pub(crate) fn around([x, y]: [f64; 2], radius: f64, angle: f64) -> [f64; 2] {
+    [x + radius * angle.cos(), y + radius * angle.sin()]
+}
+
+/// A Gaussian around the middle.
+pub(crate) fn gaussian() -> Grid<f64, 2> {
+    draw(|x, y| (-0.5 * ((x - CENTRE[0]).hypot(y - CENTRE[1]) / 60.0).powi(2)).exp())
+}
+
+/// The ends of the U-tube's legs.
+pub(crate) const U_ENDS: [[f64; 2]; 2] = [[74.5, 100.0], [224.5, 100.0]];
+
+/// A U-tube: two legs 150 pixels apart and a half circle.
+pub(crate) fn u_tube() -> Grid<f64, 2> {
+    draw(|x, y| {
+        let from_middle = (x - 149.5).hypot((y - 180.0).max(0.0));
+        tube((from_middle - 75.0) / 20.0)
+    })
+}
+
+/// The ends of four fifths of a turn of the spiral, the outer one first.
+pub(crate) fn spiral_ends() -> [[f64; 2]; 2] {
+    [-0.1, -0.1 - 0.8 * TAU].map(|angle| around(CENTRE, spiral_radius(angle), angle))
+}
+
+/// A logarithmic spiral.
+fn spiral_radius(angle: f64) -> f64 {
+    130.0 * (0.3 * angle).exp()
+}
+
+/// A spiral tube that widens outwards in proportion to its radius.
+pub(crate) fn spiral() -> Grid<f64, 2> {
+    draw(|x, y| {
+        let (dx, dy) = (x - CENTRE[0], y - CENTRE[1]);
+        let angle_there = (dx.hypot(dy).max(1.0) / spiral_radius(0.0)).ln() / 0.3;
+        let off = (angle_there - dy.atan2(dx) + PI).rem_euclid(TAU) - PI;
+        tube(off / 0.8)
+    })
+}
+
+/// The grey value across a bright tube.
+fn tube(off: f64) -> f64 {
+    0.3 + 0.45 * (-0.5 * off * off).exp()
+}
+
+/// Inside the tubes the grey value is above this, half way between the middle and the ground.
+pub(crate) const TUBE: f64 = 0.525;
+
+/// The ends of the noisy curve.
+pub(crate) const CURVE_ENDS: [[f64; 2]; 2] = [[20.0, 150.0], [280.0, 150.0]];
+
+/// The distance from the noisy curve, one period of a sine.
+pub(crate) fn off_the_noisy_curve([x, y]: [f64; 2]) -> f64 {
+    let points = (0..=1300).map(|i| 20.0 + 0.2 * f64::from(i));
+    let off = |at: f64| (x - at).hypot(y - 150.0 - 70.0 * (TAU * (at - 20.0) / 260.0).sin());
+    points.map(off).fold(f64::INFINITY, f64::min)
+}
+
+/// A thin dark curve on white ground, of whose pixels 13.3 % are replaced by random grey values.
+pub(crate) fn noisy_curve(clean: &Grid<f64, 2>, seed: u64) -> Grid<f64, 2> {
+    let mut random = random(seed);
+    clean.map(|&grey| if random() < 0.133 { random() } else { grey })
+}
+
+/// The noisy curve without noise: one or two pixels wide.
+pub(crate) fn clean_curve() -> Grid<f64, 2> {
+    draw(|x, y| if off_the_noisy_curve([x, y]) <= 0.7 { 0.6 } else { 1.0 })
+}
+
+/// Numbers from 0 to 1.
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(2685821657736338717) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }
