@@ -78,6 +78,8 @@ pub struct Descent<'a, const D: usize> {
     sources: Sources<D>,
     /// The cells that are connected to a source.
     connected: Grid<bool, D>,
+    /// Whether the potential has kinks, as that of a distance.
+    has_kinks: bool,
 }
 
 impl<'a, const D: usize> Descent<'a, D> {
@@ -86,7 +88,7 @@ impl<'a, const D: usize> Descent<'a, D> {
     /// # Errors
     /// The heat was made without its exposure.
     pub fn new(heat: &Heat<D>, medium: &'a Medium<D>) -> Result<Self, NoExposure> {
-        Ok(Self::down(potential::of_heat(heat)?, heat.sources(), medium))
+        Ok(Self::down(potential::of_heat(heat)?, false, heat.sources(), medium))
     }
 
     /// The descent of the `distances` from `sources` in `medium`, such as those of
@@ -99,14 +101,19 @@ impl<'a, const D: usize> Descent<'a, D> {
     ) -> Self {
         // Smooth at the sources, where the distance itself has a kink.
         let potential = distances.field().map(|distance| distance * distance);
-        Self::down(potential, sources, medium)
+        Self::down(potential, true, sources, medium)
     }
 
-    fn down(potential: Grid<f64, D>, sources: &Sources<D>, medium: &'a Medium<D>) -> Self {
+    fn down(
+        potential: Grid<f64, D>,
+        has_kinks: bool,
+        sources: &Sources<D>,
+        medium: &'a Medium<D>,
+    ) -> Self {
         let shape = medium.shape();
         let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
         let connected = medium.mask().reachable_from(cells);
-        Self { potential, medium, sources: sources.clone(), connected }
+        Self { potential, medium, sources: sources.clone(), connected, has_kinks }
     }
 
     /// Traces the path from `end` (pixel coordinates) to a source.
@@ -285,8 +292,8 @@ impl<'a, const D: usize> Descent<'a, D> {
     /// The slopes of the potential in a cell, per cell unit, by central differences.
     ///
     /// No flux passes a wall or the border, so the potential beyond is that of the cell itself. Along a
-    /// fast line the potential has a valley with a kink, of which the two sides are not equally
-    /// steep: there the slope across is 0, so that paths run in the valley and not beside it.
+    /// fast line a distance has a valley with a kink, of which the two sides are not equally steep:
+    /// there the slope across is 0, so that paths run in the valley and not beside it.
     fn slopes(&self, cell: usize) -> [f64; D] {
         let (shape, index) = (self.shape(), self.shape().index(cell));
         std::array::from_fn(|axis| {
@@ -301,7 +308,7 @@ impl<'a, const D: usize> Descent<'a, D> {
             let (before, after) = (at(-1, here), at(1, here));
             let bend = before - 2.0 * here + after;
             let bends = [here - 2.0 * before + at(-2, before), here - 2.0 * after + at(2, after)];
-            let is_valley = before > here && after > here;
+            let is_valley = self.has_kinks && before > here && after > here;
             if is_valley && bends.into_iter().all(|other| other < KINK * bend) {
                 return 0.0;
             }
@@ -323,7 +330,7 @@ mod tests {
             x * x + 3.0 * y * y
         });
         let sources = Sources::new(&[[60.0, 60.0]], medium.mask()).unwrap();
-        Descent::down(potential, &sources, medium)
+        Descent::down(potential, false, &sources, medium)
     }
 
     #[test]

@@ -22,6 +22,12 @@ pub(super) struct Axes<const D: usize> {
 const MARGIN: usize = 2;
 
 impl<const D: usize> Axes<D> {
+    /// The number of places for a grid, or the largest number if there are more.
+    pub(super) fn places_around(shape: &Shape<D>) -> usize {
+        let sides = shape.size().map(|n| n.saturating_add(2 * MARGIN));
+        sides.into_iter().fold(1, usize::saturating_mul)
+    }
+
     pub(super) fn new(medium: &Medium<D>) -> Self {
         let (shape, mask, unit) =
             (*medium.shape(), medium.mask(), medium.shape().smallest_spacing());

@@ -1,8 +1,9 @@
 //! Fast marching: cells in the order of their distance, each from those before it.
 
 use super::Order;
-use super::factor::{Factor, Seed, Upwind};
+use super::factor::{Factor, Upwind};
 use super::queue::{Entry, Queue};
+use super::seed::Seed;
 use super::stencil::Stencil;
 use super::update::{Difference, Differences};
 use super::value::Value;

@@ -1,18 +1,20 @@
 //! The exact weighted distance: the eikonal equation, by fast marching.
 
 mod axes;
+mod closed;
 mod factor;
 mod lattice;
 mod march;
 mod queue;
+mod seed;
 mod stencil;
 mod update;
 mod value;
 
 use self::axes::Axes;
-use self::factor::Seed;
 use self::lattice::Lattice;
 use self::march::Front;
+use self::seed::Seed;
 use self::stencil::Stencil;
 use super::{DistanceMap, NOT_REACHED};
 use crate::exec::{Cancelled, Exec};
@@ -68,7 +70,7 @@ pub enum EikonalError {
     /// The grid is too large for the numbers of its cells.
     #[error("the grid has {cells} cells; fast marching takes up to {most}")]
     TooLarge {
-        /// The number of cells.
+        /// The number of cells, in isotropic media with a rim of two around them.
         cells: usize,
         /// The largest number.
         most: usize,
@@ -152,12 +154,14 @@ enum AnyStencil<const D: usize> {
     Space(Lattice<D, 6>),
 }
 
-/// Cells and their dependents, of which there are twelve in a volume of tensors, are numbered in 32
-/// bits.
-const MOST_CELLS: usize = 300_000_000;
+/// Places are numbered in 32 bits, those of the wall around the cells too.
+const MOST_CELLS: usize = u32::MAX as usize;
 
-/// The number of slots for the time that the front takes through a typical cell: with 16 to 128 of
-/// them marching 1024^2 and 128^3 cells is equally fast, beyond that slower by 10 % and more.
+/// So are the dependents of tensors, of which a cell of a volume may have eighteen.
+const MOST_TENSORS: usize = MOST_CELLS / 18;
+
+/// The number of slots for the time that the front takes through a typical cell: some dozens of cells
+/// are in each then.
 const SLOTS_PER_CELL: f64 = 64.0;
 
 /// The number of cells that are asked for what is typical.
@@ -167,14 +171,18 @@ impl<'a, const D: usize> Eikonal<'a, D> {
     /// Prepares a medium, borrowed or owned.
     ///
     /// # Errors
-    /// The grid has more than 300 million cells.
+    /// The grid, with a rim of two cells, has more than 4 billion cells, or 230 million with tensors.
     pub fn new(medium: impl Into<Cow<'a, Medium<D>>>, exec: &Exec) -> Result<Self, EikonalError> {
         let medium = medium.into();
-        let (cells, most) = (medium.shape().cells(), MOST_CELLS);
+        let is_tensor = medium.diffusion().tensor().is_some();
+        let (cells, most) = if is_tensor {
+            (medium.shape().cells(), MOST_TENSORS)
+        } else {
+            (Axes::places_around(medium.shape()), MOST_CELLS)
+        };
         if cells > most {
             return Err(EikonalError::TooLarge { cells, most });
         }
-        let is_tensor = medium.diffusion().tensor().is_some();
         let stencil = match D {
             _ if !is_tensor => AnyStencil::Axes(Axes::new(&medium)),
             2 => AnyStencil::Plane(Lattice::new(&medium, exec)),
