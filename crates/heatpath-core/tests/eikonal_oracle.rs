@@ -29,17 +29,20 @@ fn oracle<const D: usize>(medium: &Medium<D>, source: [usize; D], order: Order) 
     let mut known = vec![f64::INFINITY; shape.cells()];
     let mut trial = known.clone();
     known[shape.position(source)] = 0.0;
+    let mut last = 0.0;
     loop {
         let unknown = |cell: &usize| mask.is_open(*cell) && known[*cell].is_infinite();
         let unknown: Vec<usize> = (0..shape.cells()).filter(unknown).collect();
         for &cell in &unknown {
-            trial[cell] = trial[cell].min(root(medium, source, &known, cell, order));
+            let distance = root(medium, source, &known, cell, order);
+            trial[cell] = trial[cell].min(f64::max(distance, last));
         }
         let nearest = unknown.into_iter().min_by(|&a, &b| trial[a].total_cmp(&trial[b]));
         let Some(cell) = nearest.filter(|&cell| trial[cell].is_finite()) else {
             return known;
         };
-        known[cell] = trial[cell];
+        last = trial[cell];
+        known[cell] = last;
     }
 }
 

@@ -102,7 +102,8 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             let is_nearest = opposite.is_none_or(|opposite| distance < self.distance(opposite));
             if is_nearest && !self.values[cell].is_known() {
                 let (trial, nearest) = self.update(cell, index);
-                self.offer(cell, trial, nearest);
+                // No cell may come nearer than one that is known already.
+                self.offer(cell, trial.max(distance), nearest);
             }
         });
     }
