@@ -1,7 +1,7 @@
 """What is computed: pictures, the medium that they make, and the distance that is right."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -26,12 +26,16 @@ class Problem:
     picture: np.ndarray
     source: tuple[int, ...]
     uniform: bool = False
+    # The right distance, where the picture is the conductivity itself.
+    given: np.ndarray | None = None
 
     @cached_property
     def conductivity(self) -> np.ndarray:
         """Equation (6) of the paper; 1 if the problem is uniform."""
         if self.uniform:
             return np.ones_like(self.picture)
+        if self.given is not None:
+            return self.picture
         return (1 - np.abs(self.picture[self.source] - self.picture)) ** POWER + FLOOR
 
     @cached_property
@@ -50,6 +54,8 @@ class Problem:
     @cached_property
     def reference(self) -> np.ndarray:
         """The distance that others are compared with."""
+        if self.given is not None:
+            return self.given
         return self.from_source if self.uniform else refined_distance(self)
 
     def deviation(self, distance: np.ndarray) -> tuple[float, float]:
@@ -91,6 +97,19 @@ def uniform(side: int) -> Problem:
     return Problem(np.zeros((side, side)), (side * 3 // 8, side // 3), uniform=True)
 
 
+def growing(side: int) -> Problem:
+    """A square in which the speed grows from 0.5 to 1.5; the source is in the middle.
+
+    In a constant gradient of the speed the distance has a closed form (Treister & Haber 2016).
+    """
+    gradient = 1 / (side - 1)
+    speed = np.broadcast_to(0.5 + gradient * np.arange(side), (side, side)).copy()
+    source = ((side - 1) // 2,) * 2
+    problem = Problem(speed**2, source)
+    growth = (gradient * problem.from_source) ** 2 / (2 * speed * speed[source])
+    return replace(problem, given=np.arccosh(1 + growth) / gradient)
+
+
 def camera(side: int) -> Problem:
     """The photographer of scikit-image; the source is on his coat."""
     return Problem(resized(data.camera() / 255, side), (side * 3 // 5, side * 2 // 5))
@@ -117,6 +136,7 @@ def resized(picture: np.ndarray, side: int) -> np.ndarray:
 
 PROBLEMS: dict[str, Callable[[], Problem]] = {
     "uniform-1024": lambda: uniform(1024),
+    "growing-1024": lambda: growing(1024),
     "camera-512": lambda: camera(512),
     "camera-1024": lambda: camera(1024),
     "camera-2048": lambda: camera(2048),

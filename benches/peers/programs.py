@@ -7,7 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from heatpath import EIKONAL, MEDIUM_CONDUCTIVITY, MEDIUM_UNIFORM, NORMALIZED, Library
+from heatpath import (
+    EIKONAL,
+    MEDIUM_CONDUCTIVITY,
+    MEDIUM_GIVEN,
+    MEDIUM_UNIFORM,
+    NORMALIZED,
+    Library,
+)
 from problems import Problem, factored_fast_marching
 
 Timed = Callable[[], np.ndarray | None]
@@ -33,6 +40,8 @@ def heatpath(threads: int, estimator: int = NORMALIZED) -> Callable[[Problem], T
 
     def prepare(problem: Problem) -> Timed:
         medium = MEDIUM_UNIFORM if problem.uniform else MEDIUM_CONDUCTIVITY
+        if problem.given is not None:
+            medium = MEDIUM_GIVEN
         return lambda: loaded.distance(
             problem.picture, problem.source, medium, threads, estimator
         )

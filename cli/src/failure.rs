@@ -137,7 +137,9 @@ impl From<EikonalError> for Failure {
             EikonalError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
             EikonalError::Target(error) => error.into(),
             EikonalError::TooLarge { .. } => Self::bad_input(error),
-            EikonalError::InitialCount { .. } | EikonalError::Initial { .. } => Self::usage(error),
+            EikonalError::InitialCount { .. }
+            | EikonalError::Initial { .. }
+            | EikonalError::Farthest(_) => Self::usage(error),
         }
     }
 }

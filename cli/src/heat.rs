@@ -84,8 +84,8 @@ pub(crate) fn given(args: &HeatArgs, allowed: &[&str]) -> Option<&'static str> {
         ("--memory", args.memory.is_some()),
         ("--face-mean", args.face_mean.is_some()),
     ];
-    let given = options.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name);
-    given.into_iter().find(|name| !allowed.contains(name))
+    let mut given = options.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name);
+    given.find(|name| !allowed.contains(name))
 }
 
 fn explicit(args: &HeatArgs) -> Result<HeatOptions, Failure> {

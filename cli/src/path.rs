@@ -80,7 +80,7 @@ fn complain_of_missing<const D: usize>(paths: &[Path<D>], plan: &Plan) -> Result
         Ending::Source(_) => "it did",
         Ending::Unreachable => "walls separate it from every source",
         Ending::NotReached => plan.not_reached(),
-        Ending::StepLimit => "the tracer took its largest number of steps",
+        Ending::StepLimit => "the tracer took its largest number of steps or found no way down",
     };
     Err(Failure::no_answer(format!(
         "{} of {} paths did not reach a source; the first is path {number}: {reason}",

@@ -48,6 +48,13 @@ impl<'a, const D: usize> PreparedHeat<'a, D> {
         }
     }
 
+    pub(crate) fn medium(&self) -> &Medium<D> {
+        match self {
+            Self::Explicit(medium, _) => medium,
+            Self::Implicit(implicit) => implicit.medium(),
+        }
+    }
+
     /// Lets heat flow from all sources together; paths need its exposure.
     pub(crate) fn flow(
         &self,

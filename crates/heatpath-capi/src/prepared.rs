@@ -43,6 +43,13 @@ impl<'a, const D: usize> Prepared<'a, D> {
         }
     }
 
+    pub(crate) fn medium(&self) -> &Medium<D> {
+        match self {
+            Self::Heat(heat) => heat.medium(),
+            Self::Eikonal { eikonal, .. } => eikonal.medium(),
+        }
+    }
+
     /// How many maps are made together.
     pub(crate) fn round(&self, threads: usize) -> usize {
         match self {

@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::check_pointer;
 use crate::view::{self, View};
-use heatpath_core::grid::{Mask, Sources};
+use heatpath_core::grid::Sources;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A medium prepared for distances from any sources.
@@ -21,14 +21,8 @@ pub struct hp_solver {
 }
 
 enum AnyDimension {
-    Two(Ready<2>),
-    Three(Ready<3>),
-}
-
-/// A medium that needs nothing but sources.
-struct Ready<const D: usize> {
-    prepared: Prepared<'static, D>,
-    mask: Mask<D>,
+    Two(Prepared<'static, 2>),
+    Three(Prepared<'static, 3>),
 }
 
 /// Prepares distances from sources that are not known yet; with HP_SOLVER_IMPLICIT, analyses and
@@ -77,7 +71,7 @@ unsafe fn prepare<const D: usize>(
     image: *const hp_buffer,
     mask: *const hp_buffer,
     options: *const hp_options,
-) -> Result<Ready<D>, Failure> {
+) -> Result<Prepared<'static, D>, Failure> {
     // SAFETY: the caller's promise.
     let (settings, medium) = unsafe {
         let settings = Settings::read(options)?;
@@ -85,10 +79,9 @@ unsafe fn prepare<const D: usize>(
         (settings, medium)
     };
     let exec = settings.exec(|finished| settings.progress.report(finished))?;
-    let mask = medium.mask().clone();
     let prepared = Prepared::new(medium, settings.method, &exec)?;
     settings.progress.check(1.0)?;
-    Ok(Ready { prepared, mask })
+    Ok(prepared)
 }
 
 /// Computes the distance of every pixel from each of several sources: one map for each of them.
@@ -129,13 +122,13 @@ pub unsafe extern "C" fn hp_solver_distances(
             let settings = Settings::read(options)?;
             let maps = (distances, map_stride);
             match &(*solver).medium {
-                AnyDimension::Two(ready) => {
+                AnyDimension::Two(prepared) => {
                     let points = read_points(sources, source_count, "sources")?;
-                    write_maps(ready, &points, &settings, maps)
+                    write_maps(prepared, &points, &settings, maps)
                 }
-                AnyDimension::Three(ready) => {
+                AnyDimension::Three(prepared) => {
                     let points = read_points(sources, source_count, "sources")?;
-                    write_maps(ready, &points, &settings, maps)
+                    write_maps(prepared, &points, &settings, maps)
                 }
             }
         }
@@ -145,7 +138,7 @@ pub unsafe extern "C" fn hp_solver_distances(
 /// # Safety
 /// As [`hp_solver_distances`].
 unsafe fn write_maps<const D: usize>(
-    Ready { prepared, mask }: &Ready<D>,
+    prepared: &Prepared<D>,
     points: &[[f64; D]],
     settings: &Settings,
     (distances, map_stride): (*const hp_buffer, i64),
@@ -153,9 +146,9 @@ unsafe fn write_maps<const D: usize>(
     // SAFETY: the caller's promise.
     let first = unsafe { View::<D>::read(distances, "distances")? };
     pixels::check_writable(&first)?;
-    first.check_size(mask.shape())?;
+    first.check_size(prepared.medium().shape())?;
     let stride = first.map_stride(map_stride, points.len()).map_err(|f| f.of("distances"))?;
-    let sources = Sources::new(points, mask)?.each();
+    let sources = Sources::new(points, prepared.medium().mask())?.each();
     // === A few at a time, so that they need little memory
     let (count, done, round) = (sources.len(), AtomicUsize::new(0), AtomicUsize::new(1));
     let progress = &settings.progress;

@@ -144,7 +144,9 @@ impl From<EikonalError> for Failure {
     fn from(error: EikonalError) -> Self {
         let status = match error {
             EikonalError::TooLarge { .. } => HP_UNSUPPORTED,
-            EikonalError::InitialCount { .. } | EikonalError::Initial { .. } => HP_INVALID_ARGUMENT,
+            EikonalError::InitialCount { .. }
+            | EikonalError::Initial { .. }
+            | EikonalError::Farthest(_) => HP_INVALID_ARGUMENT,
             EikonalError::Target(error) => return error.into(),
             EikonalError::Cancelled(cancelled) => return cancelled.into(),
         };

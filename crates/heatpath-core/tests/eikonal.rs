@@ -2,12 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 #![allow(clippy::print_stdout, reason = "the figures of docs/accuracy.md")]
 
+mod support;
+
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions, NOT_REACHED, Order};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::path::{Descent, Ending, PathOptions};
 use heatpath_core::grid::{Grid, Matrix, Shape, Sources, TensorField};
 use std::f64::consts::PI;
+use support::{euclidean, march};
 
 /// A domain: cells of one size from the centre of the first one.
 #[derive(Clone, Copy)]
@@ -51,21 +54,6 @@ impl<const D: usize> Domain<D> {
     }
 }
 
-fn march<const D: usize>(
-    medium: &Medium<D>,
-    points: &[[f64; D]],
-    options: &EikonalOptions<D>,
-) -> Grid<f64, D> {
-    let exec = Exec::single_threaded();
-    let sources = Sources::new(points, medium.mask()).unwrap();
-    let eikonal = Eikonal::new(medium, &exec).unwrap();
-    eikonal.distance(&sources, options, &exec).unwrap().into_field()
-}
-
-fn length<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    (0..D).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
-}
-
 /// Prints a row of the table in docs/accuracy.md.
 fn print(name: &str, cells: usize, (max, mean): (f64, f64)) {
     println!("| {name} | {cells} | {max:.1e} | {mean:.1e} |");
@@ -76,7 +64,7 @@ fn half_plane(n: usize, source: [f64; 2], order: Order) -> (f64, f64) {
     let domain = Domain::new([n, n], 1.0 / (n - 1) as f64, [-0.5, 1.0]);
     let medium = domain.isotropic(|[_, y]| 1.0 / y);
     domain.errors(&medium, source, order, |p| {
-        let (across, straight) = (length(p, [source[0], -source[1]]), length(p, source));
+        let (across, straight) = (euclidean(p, [source[0], -source[1]]), euclidean(p, source));
         Some(((across + straight) / (across - straight)).ln())
     })
 }
@@ -106,7 +94,7 @@ fn velocity_gradient(h: f64) -> (f64, f64) {
     let (gradient, slowness, source) = (1.0, 2.0, [0.0, 4.0]);
     let cost = |[x, _]: [f64; 2]| 1.0 / (1.0 / slowness + gradient * x);
     domain.errors(&domain.isotropic(cost), source, Order::Second, |p| {
-        let r_sq = length(p, source).powi(2);
+        let r_sq = euclidean(p, source).powi(2);
         Some((1.0 + 0.5 * slowness * gradient * gradient * cost(p) * r_sq).acosh() / gradient)
     })
 }
@@ -117,7 +105,7 @@ fn slowness_gradient(h: f64) -> (f64, f64) {
     let (a, slowness, source) = (-0.4, 2.0_f64, [0.0, 4.0]);
     let medium = domain.isotropic(|[x, _]| (slowness * slowness + 2.0 * a * x).sqrt());
     domain.errors(&medium, source, Order::Second, |p| {
-        let (s, r_sq) = (slowness * slowness + a * p[0], length(p, source).powi(2));
+        let (s, r_sq) = (slowness * slowness + a * p[0], euclidean(p, source).powi(2));
         let sigma = (2.0 * r_sq / (s + (s * s - a * a * r_sq).sqrt())).sqrt();
         Some(s * sigma - a * a * sigma.powi(3) / 6.0)
     })
@@ -142,7 +130,7 @@ fn volume(n: usize, source: [f64; 3]) -> (f64, f64) {
     let velocity = |p: [f64; 3]| 0.5 + p[0] + 0.5 * p[2];
     let medium = domain.isotropic(|p| 1.0 / velocity(p));
     domain.errors(&medium, source, Order::Second, |p| {
-        let growth = 1.25 * length(p, source).powi(2) / (2.0 * velocity(p) * velocity(source));
+        let growth = 1.25 * euclidean(p, source).powi(2) / (2.0 * velocity(p) * velocity(source));
         Some((1.0 + growth).acosh() / 1.25_f64.sqrt())
     })
 }
@@ -262,7 +250,7 @@ fn labels_and_initial_distances() {
     let (distances, nearest) = eikonal.distance_and_nearest(&sources, &options, &exec).unwrap();
     for cell in 0..shape.cells() {
         let centre = shape.centre(cell);
-        let each = |source: usize| initial[source] + length(centre, points[source]);
+        let each = |source: usize| initial[source] + euclidean(centre, points[source]);
         // The third source is farther from the second than its own distance.
         let exact = each(0).min(each(1));
         let value = distances.field().values()[cell];
@@ -314,7 +302,7 @@ fn a_path_is_a_cycloid() {
     assert_eq!(path.ending, Ending::Source(0));
     let exact: Vec<[f64; 2]> =
         (0..20_000).map(|i| pixel(cycloid(0.15 + 2.98e-4 * PI * f64::from(i) / 3.0))).collect();
-    let off = |&p: &[f64; 2]| exact.iter().map(|&q| length(p, q)).fold(f64::INFINITY, f64::min);
+    let off = |&p: &[f64; 2]| exact.iter().map(|&q| euclidean(p, q)).fold(f64::INFINITY, f64::min);
     let strayed: Vec<f64> = path.points.iter().map(off).collect();
     let mean = strayed.iter().sum::<f64>() / strayed.len() as f64;
     let most = strayed.into_iter().fold(0.0, f64::max);

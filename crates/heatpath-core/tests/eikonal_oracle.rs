@@ -8,18 +8,7 @@ use heatpath_core::grid::distance::{Eikonal, EikonalError, EikonalOptions, NOT_R
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Mask, Shape, Sources, TensorField};
 use proptest::prelude::*;
-use support::{random, rough};
-
-fn march<const D: usize>(
-    medium: &Medium<D>,
-    points: &[[f64; D]],
-    options: &EikonalOptions<D>,
-) -> Grid<f64, D> {
-    let exec = Exec::single_threaded();
-    let sources = Sources::new(points, medium.mask()).unwrap();
-    let eikonal = Eikonal::new(medium, &exec).unwrap();
-    eikonal.distance(&sources, options, &exec).unwrap().into_field()
-}
+use support::{march, random, rough};
 
 /// The distance from a source at the centre of a cell in an isotropic medium of unit spacing: in each
 /// round the nearest of all cells that are not yet known becomes known, and each is found by halving
@@ -306,6 +295,10 @@ fn what_makes_no_sense_is_refused() {
     assert!(matches!(with(initial(&[f64::NAN, 0.0])), EikonalError::Initial { number: 0, .. }));
     let target = EikonalOptions { targets: vec![[9.0, 0.0]], ..Default::default() };
     assert!(matches!(with(target), EikonalError::Target(_)));
+    for farthest in [0.0, -1.0, f64::NAN] {
+        let end = EikonalOptions { farthest, ..Default::default() };
+        assert!(matches!(with(end), EikonalError::Farthest(_)));
+    }
     let cancelled = Exec::single_threaded().with_watch(|_| std::ops::ControlFlow::Break(()));
     let large = medium::uniform(Shape::new([300, 300]).unwrap());
     let eikonal = Eikonal::new(&large, &exec).unwrap();

@@ -91,6 +91,14 @@ impl<const D: usize> TensorField<D> {
     }
 }
 
+/// A diffusion tensor for derivatives per cell instead of per unit of length, in which the smallest
+/// spacing is 1.
+#[must_use]
+pub(crate) fn per_cell<const D: usize>(matrix: &Matrix<D>, shape: &Shape<D>) -> Matrix<D> {
+    let scale = shape.spacing().map(|spacing| shape.smallest_spacing() / spacing);
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[i][j] * (scale[i] * scale[j])))
+}
+
 /// The determinant of a symmetric matrix of one to three rows.
 #[must_use]
 pub(crate) fn determinant<const D: usize>(m: &Matrix<D>) -> f64 {

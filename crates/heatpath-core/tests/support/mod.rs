@@ -1,9 +1,9 @@
-//! What the tests of implicit heat share.
+//! What tests share.
 #![allow(dead_code, reason = "each test program uses a part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
-use heatpath_core::grid::distance::normalized;
+use heatpath_core::grid::distance::{Eikonal, EikonalOptions, normalized};
 use heatpath_core::grid::heat::{Heat, Implicit, ImplicitOptions};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::path::{Descent, Path, PathOptions};
@@ -64,4 +64,16 @@ pub(crate) fn paths(
     let heat = Implicit::new(medium, options, &exec).unwrap().flow(&sources, &exec).unwrap();
     let (descent, distances) = (Descent::new(&heat, medium).unwrap(), normalized(&heat));
     ends.iter().map(|&end| descent.path(end, &distances, PathOptions::default()).unwrap()).collect()
+}
+
+/// The exact distances.
+pub(crate) fn march<const D: usize>(
+    medium: &Medium<D>,
+    points: &[[f64; D]],
+    options: &EikonalOptions<D>,
+) -> Grid<f64, D> {
+    let exec = Exec::single_threaded();
+    let sources = Sources::new(points, medium.mask()).unwrap();
+    let eikonal = Eikonal::new(medium, &exec).unwrap();
+    eikonal.distance(&sources, options, &exec).unwrap().into_field()
 }

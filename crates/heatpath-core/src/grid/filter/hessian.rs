@@ -1,6 +1,6 @@
 //! Second derivatives.
 
-use super::separable::{Derivatives, for_each_slab, second_orders, slab_cells};
+use super::separable::{Derivatives, second_orders};
 use super::{FilterError, check_sigma};
 use crate::exec::Exec;
 use crate::grid::{Grid, TensorField};
@@ -26,18 +26,11 @@ pub fn hessian<const D: usize>(
     let derivatives = Derivatives::new(shape, sigma, exec.simd());
     let components = TensorField::<D>::COMPONENTS;
     let mut values = vec![0.0; shape.cells() * components];
-    let slabs = values.chunks_mut(slab_cells(&shape) * components);
-    for_each_slab(
-        exec,
-        0.0..1.0,
-        slabs,
-        || derivatives.scratch(),
-        |scratch, slab, result| {
-            derivatives.slab(image, slab, &second_orders(), scratch, |component, first, row| {
-                let places = result[first * components + component..].iter_mut();
-                places.step_by(components).zip(row).for_each(|(place, value)| *place = *value);
-            });
-        },
-    )?;
+    let progress = (0.0..1.0, exec);
+    let put = |slab: &mut [f64], component: usize, first: usize, row: &[f64]| {
+        let places = slab[first * components + component..].iter_mut().step_by(components);
+        places.zip(row).for_each(|(place, value)| *place = *value);
+    };
+    derivatives.fill(image, &second_orders(), &mut values, progress, put)?;
     Ok(TensorField::from_parts(shape, values))
 }

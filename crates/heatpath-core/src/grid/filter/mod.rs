@@ -21,7 +21,7 @@ pub(super) use measure::rise;
 
 use super::{Grid, NotFinite};
 use crate::exec::{Cancelled, Exec};
-use separable::{Derivatives, for_each_slab, slab_cells};
+use separable::Derivatives;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -99,18 +99,10 @@ fn smooth<const D: usize>(
 ) -> Result<Grid<f64, D>, Cancelled> {
     let derivatives = Derivatives::new(*image.shape(), sigma, exec.simd());
     let mut smooth = image.map(|_| 0.0);
-    let slabs = smooth.values_mut().chunks_mut(slab_cells(image.shape()));
-    for_each_slab(
-        exec,
-        share,
-        slabs,
-        || derivatives.scratch(),
-        |scratch, slab, result| {
-            derivatives.slab(image, slab, &[[0; D]], scratch, |_, first, row| {
-                result[first..first + row.len()].copy_from_slice(row);
-            });
-        },
-    )?;
+    let put = |slab: &mut [f64], _: usize, first: usize, row: &[f64]| {
+        slab[first..first + row.len()].copy_from_slice(row);
+    };
+    derivatives.fill(image, &[[0; D]], smooth.values_mut(), (share, exec), put)?;
     Ok(smooth)
 }
 

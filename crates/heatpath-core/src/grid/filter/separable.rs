@@ -98,6 +98,32 @@ impl<const D: usize> Derivatives<D> {
         }
     }
 
+    /// Fills `values`, of which there are as many for every cell of `image`, in parallel.
+    ///
+    /// `put(slab, derivative, first, row)` gets the values of a slab, and the rest as
+    /// [`slab`](Self::slab) says it; progress goes through `share` of the whole.
+    pub(super) fn fill<T: Send>(
+        &self,
+        image: &Grid<f64, D>,
+        orders: &[[usize; D]],
+        values: &mut [T],
+        (share, exec): (Range<f64>, &Exec),
+        put: impl Fn(&mut [T], usize, usize, &[f64]) + Sync + Send,
+    ) -> Result<(), Cancelled> {
+        let slabs = values.chunks_mut(values.len() / self.shape.size()[D - 1]);
+        for_each_slab(
+            exec,
+            share,
+            slabs,
+            || self.scratch(),
+            |scratch, slab, values| {
+                self.slab(image, slab, orders, scratch, |derivative, first, row| {
+                    put(values, derivative, first, row);
+                });
+            },
+        )
+    }
+
     /// The pass along the last axis, for the orders that are needed.
     fn across_slabs(
         &self,

@@ -1,6 +1,6 @@
 //! First derivatives and the structure tensor.
 
-use super::separable::{Derivatives, first_orders, for_each_slab, slab_cells};
+use super::separable::{Derivatives, first_orders};
 use super::{FilterError, check_sigma, smooth};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, TensorField};
@@ -33,19 +33,11 @@ pub(super) fn gradient<const D: usize>(
 ) -> Result<Grid<[f64; D], D>, Cancelled> {
     let derivatives = Derivatives::new(*image.shape(), sigma, exec.simd());
     let mut gradient = image.map(|_| [0.0; D]);
-    let slabs = gradient.values_mut().chunks_mut(slab_cells(image.shape()));
-    for_each_slab(
-        exec,
-        share,
-        slabs,
-        || derivatives.scratch(),
-        |scratch, slab, result| {
-            derivatives.slab(image, slab, &first_orders(), scratch, |axis, first, row| {
-                let places = result[first..].iter_mut().zip(row);
-                places.for_each(|(gradient, value)| gradient[axis] = *value);
-            });
-        },
-    )?;
+    let put = |slab: &mut [[f64; D]], axis: usize, first: usize, row: &[f64]| {
+        let places = slab[first..].iter_mut().zip(row);
+        places.for_each(|(gradient, value)| gradient[axis] = *value);
+    };
+    derivatives.fill(image, &first_orders(), gradient.values_mut(), (share, exec), put)?;
     Ok(gradient)
 }
 

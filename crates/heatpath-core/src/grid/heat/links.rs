@@ -2,6 +2,7 @@
 
 use crate::grid::medium::Medium;
 use crate::grid::stencil::{conditioned, selling, smallest_eigenvalue};
+use crate::grid::tensor::per_cell;
 use crate::grid::{Mask, Matrix, Shape, TensorField};
 use std::collections::BTreeMap;
 
@@ -47,7 +48,7 @@ impl<const D: usize> Links<D> {
         let mut forward = vec![Vec::new(); shape.cells()];
         let mut numbers = BTreeMap::new();
         for cell in (0..shape.cells()).filter(|&cell| mask.is_open(cell)) {
-            for (offset, weight) in weights(in_cells(field.at(cell), &shape)) {
+            for (offset, weight) in weights(per_cell(&field.at(cell), &shape)) {
                 let next = numbers.len() as u32;
                 let number = *numbers.entry(offset).or_insert(next);
                 for [from, to] in pairs(&shape, cell, offset).into_iter().flatten() {
@@ -97,12 +98,6 @@ fn add<const D: usize>(links: &mut Vec<Link>, offset: u32, conductance: f64) {
         links.reserve_exact(if links.is_empty() { D + 2 } else { 1 });
         links.push(Link { offset, conductance });
     }
-}
-
-/// D in units of the smallest spacing squared over the spacings of the axes.
-fn in_cells<const D: usize>(matrix: Matrix<D>, shape: &Shape<D>) -> Matrix<D> {
-    let scale = shape.spacing().map(|spacing| shape.smallest_spacing() / spacing);
-    std::array::from_fn(|i| std::array::from_fn(|j| matrix[i][j] * (scale[i] * scale[j])))
 }
 
 /// Offsets and weights whose sum of `weight offset offset'` is the matrix, the axes always among

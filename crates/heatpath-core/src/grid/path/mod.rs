@@ -15,6 +15,7 @@ use super::medium::Medium;
 use super::sample::corners;
 use super::tensor::apply;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
+use std::iter;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub enum Ending {
     Unreachable,
     /// Nowhere: no heat has arrived at the end point; more iterations would bring it there.
     NotReached,
-    /// On the way: the tracer gave up after its largest number of steps.
+    /// On the way: the tracer gave up after its largest number of steps, or found no way down.
     StepLimit,
 }
 
@@ -65,9 +66,6 @@ impl Default for PathOptions {
 
 /// A valley has a kink if the potential bends less than this part of its bend on both sides of it.
 const KINK: f64 = 0.5;
-
-/// How far to look for a lower cell, in cells.
-const FARTHEST_OFFSET: usize = 16;
 
 /// A potential to descend, with its sources and walls: traces any number of paths.
 #[derive(Clone, Debug)]
@@ -176,7 +174,11 @@ impl<'a, const D: usize> Descent<'a, D> {
                 Some(next) => points.push(next),
                 None => self.walk_below(self.value(here), here, &mut points),
             }
-            here = points[points.len() - 1];
+            let last = points[points.len() - 1];
+            if last == here {
+                break;
+            }
+            here = last;
         }
         (points, Ending::StepLimit)
     }
@@ -236,21 +238,22 @@ impl<'a, const D: usize> Descent<'a, D> {
         }
     }
 
-    /// The lowest of the cells around a cell that is lower than itself: of its neighbours, or if there
-    /// is none, of the nearest in sight. In an anisotropic medium heat comes along the lattice's
-    /// offsets, which may lead past the neighbours.
+    /// A cell that is lower than a cell: the lowest of its neighbours, or if none of these is lower, of
+    /// those in sight in a box around it, as large as it takes. In an anisotropic medium heat comes
+    /// along the lattice's offsets, which may lead past the neighbours.
     fn lower(&self, cell: usize) -> Option<usize> {
-        let lowest = |cells: &mut dyn Iterator<Item = usize>| {
-            cells
-                .filter(|&next| self.at(next) < self.at(cell) && self.mask().is_open(next))
-                .min_by(|&a, &b| self.at(a).total_cmp(&self.at(b)))
-        };
-        let shape = self.shape();
-        lowest(&mut shape.neighbours(cell)).or_else(|| {
-            let here = shape.centre(cell);
-            let in_sight = |&next: &usize| self.mask().segment_is_open(here, shape.centre(next));
-            (1..=FARTHEST_OFFSET)
-                .find_map(|radius| lowest(&mut shape.box_around(cell, radius).filter(in_sight)))
+        let (shape, mask) = (self.shape(), self.mask());
+        let here = shape.centre(cell);
+        let is_lower = |next: &usize| self.at(*next) < self.at(cell) && mask.is_open(*next);
+        let lowest = |a: &usize, b: &usize| self.at(*a).total_cmp(&self.at(*b));
+        shape.neighbours(cell).filter(is_lower).min_by(lowest).or_else(|| {
+            let in_sight = |next: &usize| mask.segment_is_open(here, shape.centre(*next));
+            let mut radii = iter::successors(Some(1), |&radius| Some(2 * radius))
+                .take_while(|&radius| radius < 2 * shape.longest_side());
+            radii.find_map(|radius| {
+                let around = shape.box_around(cell, radius).filter(is_lower).filter(in_sight);
+                around.min_by(lowest)
+            })
         })
     }
 

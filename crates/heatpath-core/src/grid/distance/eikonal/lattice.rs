@@ -4,7 +4,7 @@ use super::stencil::Stencil;
 use crate::exec::Exec;
 use crate::grid::medium::Medium;
 use crate::grid::stencil::selling;
-use crate::grid::tensor::{apply, inverse};
+use crate::grid::tensor::{apply, inverse, per_cell};
 use crate::grid::{Mask, Matrix, Shape};
 
 /// The eikonal equation along a few offsets of the lattice in each cell, those of its tensor's
@@ -107,17 +107,15 @@ fn terms_of<const D: usize, const N: usize>(
     walls: bool,
     cell: usize,
 ) -> [Term<D>; N] {
-    let (shape, tensor) = (medium.shape(), medium.speed_sq_tensor(cell));
-    let per_step = shape.spacing().map(|h| shape.smallest_spacing() / h);
-    let scaled: Matrix<D> =
-        std::array::from_fn(|i| std::array::from_fn(|j| tensor[i][j] * per_step[i] * per_step[j]));
+    let shape = medium.shape();
+    let tensor = per_cell(&medium.speed_sq_tensor(cell), shape);
     let index = shape.index(cell);
     let term = |(offset, weight): ([i32; D], f64)| {
         let offset = offset.map(|part| part as i16);
         Term { weight, offset, open: steps(medium.mask(), walls, index, offset) }
     };
     let mut terms = [Term::NONE; N];
-    terms.iter_mut().zip(selling(&scaled)).for_each(|(place, sum)| *place = term(sum));
+    terms.iter_mut().zip(selling(&tensor)).for_each(|(place, sum)| *place = term(sum));
     terms
 }
 

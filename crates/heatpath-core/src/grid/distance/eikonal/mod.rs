@@ -45,8 +45,8 @@ pub struct EikonalOptions<const D: usize> {
     ///
     /// A source that lies farther from another than its own distance is passed over.
     pub initial: Vec<f64>,
-    /// The march ends at this distance, in physical units; all cells beyond are not reached. Default
-    /// infinity.
+    /// The march ends at this distance, in physical units; all cells beyond are not reached. Positive;
+    /// default infinity.
     pub farthest: f64,
     /// If there are any points here (pixel coordinates), the march ends as soon as the distances at
     /// all of them are known, and those of the cells around them. Default empty.
@@ -93,6 +93,9 @@ pub enum EikonalError {
         /// The rejected value.
         value: f64,
     },
+    /// The march cannot end at this distance.
+    #[error("farthest is {0}; it must be a positive distance")]
+    Farthest(f64),
     /// A target lies outside the grid or in a wall.
     #[error(transparent)]
     Target(#[from] PointError),
@@ -192,10 +195,16 @@ impl<'a, const D: usize> Eikonal<'a, D> {
         Ok(Self { medium, stencil, width })
     }
 
+    /// The medium.
+    #[must_use]
+    pub fn medium(&self) -> &Medium<D> {
+        &self.medium
+    }
+
     /// The distance of each cell from the nearest source.
     ///
     /// # Errors
-    /// The initial distances or targets are not right, or the caller cancelled.
+    /// The initial distances, targets or end are not right, or the caller cancelled.
     pub fn distance(
         &self,
         sources: &Sources<D>,
@@ -233,6 +242,9 @@ impl<'a, const D: usize> Eikonal<'a, D> {
         exec: &Exec,
     ) -> Result<(DistanceMap<D>, Vec<u32>), EikonalError> {
         check_initial(sources, &options.initial)?;
+        if options.farthest.is_nan() || options.farthest <= 0.0 {
+            return Err(EikonalError::Farthest(options.farthest));
+        }
         if !options.targets.is_empty() {
             check_points("target", &options.targets, self.medium.mask())?;
         }

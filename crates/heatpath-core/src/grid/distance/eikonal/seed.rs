@@ -4,7 +4,7 @@ use super::stencil::Stencil;
 use crate::grid::Matrix;
 use crate::grid::medium::Medium;
 use crate::grid::source::shares;
-use crate::grid::tensor::{apply, inverse};
+use crate::grid::tensor::{apply, inverse, per_cell};
 
 /// A source as the cells around it see it.
 #[derive(Clone, Debug)]
@@ -47,9 +47,7 @@ impl<const D: usize> Seed<D> {
 
 /// The metric in a cell, per squared pixel.
 fn metric_of<const D: usize>(medium: &Medium<D>, cell: usize) -> Matrix<D> {
-    let (shape, metric) = (medium.shape(), inverse(&medium.speed_sq_tensor(cell)));
-    let step = shape.spacing().map(|h| h / shape.smallest_spacing());
-    std::array::from_fn(|i| std::array::from_fn(|j| metric[i][j] * step[i] * step[j]))
+    inverse(&per_cell(&medium.speed_sq_tensor(cell), medium.shape()))
 }
 
 /// The length of a vector in a metric.
