@@ -98,12 +98,12 @@ def uniform(side: int) -> Problem:
 
 
 def growing(side: int) -> Problem:
-    """A square in which the speed grows from 0.5 to 1.5; the source is in the middle.
+    """A square in which the speed grows from 1/3 to 1; the source is in the middle.
 
     In a constant gradient of the speed the distance has a closed form (Treister & Haber 2016).
     """
-    gradient = 1 / (side - 1)
-    speed = np.broadcast_to(0.5 + gradient * np.arange(side), (side, side)).copy()
+    gradient = 2 / 3 / (side - 1)
+    speed = np.broadcast_to(1 / 3 + gradient * np.arange(side), (side, side)).copy()
     source = ((side - 1) // 2,) * 2
     problem = Problem(speed**2, source)
     growth = (gradient * problem.from_source) ** 2 / (2 * speed * speed[source])

@@ -19,7 +19,8 @@ EXPLANATION = """
 Seconds on the wall: the median of the rounds and, in brackets, the quartiles. The next two columns
 are the time divided by heatpath's: the median of the ratios of each round, above 1 where heatpath
 is faster. Deviation: mean relative difference, beyond 10 cells from the source, from factored fast
-marching of order 2 on a grid up to 4 times finer; in the uniform square from the exact distance.
+marching of order 2 on a grid up to 4 times finer; in the uniform and the growing square from the
+exact distance.
 """.strip()
 
 

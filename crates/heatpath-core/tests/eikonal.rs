@@ -313,3 +313,24 @@ fn a_path_is_a_cycloid() {
     assert!(mean < 0.2 && most < 0.6, "{mean} {most}");
     assert!((path.distance / exact - 1.0).abs() < 5e-3, "{} {exact}", path.distance);
 }
+
+#[test]
+fn paths_arrive_at_any_anisotropy() {
+    // Offsets are as long as the picture, and few cells have a lower neighbour.
+    let shape = Shape::new([70, 60]).unwrap();
+    for ratio in [1e-2, 1e-4, 1e-8, 1e-12] {
+        let (sin, cos) = 0.3_f64.sin_cos();
+        let xy = (1.0 - ratio) * sin * cos;
+        let diffusion = [[cos * cos + ratio * sin * sin, xy], [xy, sin * sin + ratio * cos * cos]];
+        let medium = medium::given_tensor(TensorField::from_fn(shape, |_| diffusion)).unwrap();
+        let exec = Exec::single_threaded();
+        let sources = Sources::new(&[[5.0, 50.0]], medium.mask()).unwrap();
+        let eikonal = Eikonal::new(&medium, &exec).unwrap();
+        let distances = eikonal.distance(&sources, &EikonalOptions::default(), &exec).unwrap();
+        let descent = Descent::of_distances(&distances, &sources, &medium);
+        for end in [[60.0, 5.0], [69.0, 59.0], [0.0, 0.0], [33.3, 30.7]] {
+            let path = descent.path(end, &distances, PathOptions::default()).unwrap();
+            assert_eq!(path.ending, Ending::Source(0), "{ratio:e} from {end:?}");
+        }
+    }
+}
