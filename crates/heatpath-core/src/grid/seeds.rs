@@ -1,0 +1,125 @@
+//! Where automatic extraction begins: one seed in each piece of the structure.
+
+use super::medium::Medium;
+use super::{Grid, Shape};
+
+/// One point in each piece of the structure, that of the longest piece first.
+///
+/// The structure is where the medium is fast, `k D >= least_speed_sq`; cells that touch, also by a
+/// corner, are one piece. A piece counts if the diagonal of the box around it is at least
+/// `least_extent` in cell units (multiples of the smallest spacing): noise makes short pieces, vessels
+/// long ones. The point is the piece's fastest cell, of several equally fast ones the first in memory.
+///
+/// ```
+/// use heatpath_core::grid::medium::{Form, given};
+/// use heatpath_core::grid::{Grid, Shape, seeds};
+///
+/// // Two lines and a spot.
+/// let speed_sq = Grid::from_fn(Shape::new([60, 40])?, |[x, y]| match (x, y) {
+///     (_, 10) | (20..40, 30) | (50, 35) => 1.0 - 1e-3 * (x as f64 - 25.0).abs(),
+///     _ => 1e-3,
+/// });
+/// let seeds = seeds(&given(speed_sq, Form::Pointwise)?, 0.5, 10.0);
+/// assert_eq!(seeds, [[25.0, 10.0], [25.0, 30.0]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn seeds<const D: usize>(
+    medium: &Medium<D>,
+    least_speed_sq: f64,
+    least_extent: f64,
+) -> Vec<[f64; D]> {
+    let shape = *medium.shape();
+    let is_fast =
+        |cell: usize| medium.mask().is_open(cell) && medium.speed_sq(cell) >= least_speed_sq;
+    let mut waiting = Grid::from_fn(shape, |index| is_fast(shape.position(index)));
+    let mut pieces = Vec::new();
+    for first in 0..shape.cells() {
+        if waiting.values()[first] {
+            let piece = Piece::around(first, medium, &mut waiting);
+            let extent = piece.extent(&shape);
+            if extent >= least_extent {
+                pieces.push((extent, piece.fastest));
+            }
+        }
+    }
+    pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
+    pieces.into_iter().map(|(_, fastest)| shape.centre(fastest)).collect()
+}
+
+/// Cells that touch.
+struct Piece<const D: usize> {
+    fastest: usize,
+    low: [usize; D],
+    high: [usize; D],
+}
+
+impl<const D: usize> Piece<D> {
+    /// The piece of `waiting` cells around one of them, which are then waiting no more.
+    fn around(first: usize, medium: &Medium<D>, waiting: &mut Grid<bool, D>) -> Self {
+        let shape = medium.shape();
+        let mut piece = Self { fastest: first, low: shape.index(first), high: shape.index(first) };
+        waiting.values_mut()[first] = false;
+        let mut stack = vec![first];
+        while let Some(cell) = stack.pop() {
+            piece.add(cell, medium);
+            for next in shape.box_around(cell, 1) {
+                if std::mem::take(&mut waiting.values_mut()[next]) {
+                    stack.push(next);
+                }
+            }
+        }
+        piece
+    }
+
+    fn add(&mut self, cell: usize, medium: &Medium<D>) {
+        let rank = |cell: usize| (medium.speed_sq(cell), std::cmp::Reverse(cell));
+        if rank(cell) > rank(self.fastest) {
+            self.fastest = cell;
+        }
+        let index = medium.shape().index(cell);
+        for axis in 0..D {
+            self.low[axis] = self.low[axis].min(index[axis]);
+            self.high[axis] = self.high[axis].max(index[axis]);
+        }
+    }
+
+    /// The diagonal of the box around it, in cell units.
+    fn extent(&self, shape: &Shape<D>) -> f64 {
+        let corner = |index: [usize; D]| index.map(|i| i as f64);
+        shape.physical_distance(corner(self.low), corner(self.high)) / shape.smallest_spacing()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Mask;
+    use crate::grid::medium::{Form, given};
+
+    fn medium(spacing: [f64; 2], rows: &[&str]) -> Medium<2> {
+        let shape = Shape::with_spacing([rows[0].len(), rows.len()], spacing).unwrap();
+        let speed = |[x, y]: [usize; 2]| f64::from(rows[y].as_bytes()[x] - b'0').max(0.5);
+        given(Grid::from_fn(shape, speed), Form::Pointwise).unwrap()
+    }
+
+    #[test]
+    fn pieces_touch_at_corners_and_are_ordered_by_their_extent() {
+        let medium = medium([1.0; 2], &["2000000", "0300022", "0022000", "0000000", "5000000"]);
+        assert_eq!(seeds(&medium, 2.0, 0.0), [[1.0, 1.0], [5.0, 1.0], [0.0, 4.0]]);
+        assert_eq!(seeds(&medium, 2.0, 1.0), [[1.0, 1.0], [5.0, 1.0]]);
+        assert_eq!(seeds(&medium, 4.0, 0.0), [[0.0, 4.0]]);
+        assert!(seeds(&medium, 9.0, 0.0).is_empty());
+    }
+
+    #[test]
+    fn extents_are_physical_and_walls_divide() {
+        let rows = ["00000", "22222", "00000"];
+        let tall = medium([1.0, 3.0], &rows);
+        assert_eq!(seeds(&tall, 2.0, 4.0).len(), 1);
+        assert!(seeds(&tall, 2.0, 4.1).is_empty());
+        let walls = Mask::new(Grid::from_fn(*tall.shape(), |[x, _]| x != 3));
+        let divided = tall.with_walls(walls).unwrap();
+        assert_eq!(seeds(&divided, 2.0, 0.0), [[0.0, 1.0], [4.0, 1.0]]);
+    }
+}
