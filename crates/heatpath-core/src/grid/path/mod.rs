@@ -7,15 +7,18 @@
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
+mod near;
 mod potential;
 
+use self::near::NearSources;
 use super::distance::{DistanceMap, NOT_REACHED};
 use super::heat::{Heat, NoExposure};
 use super::medium::Medium;
 use super::sample::corners;
-use super::tensor::apply;
+use super::tensor::{apply, inverse};
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::iter;
+use std::sync::OnceLock;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +77,9 @@ pub struct Descent<'a, const D: usize> {
     potential: Grid<f64, D>,
     medium: &'a Medium<D>,
     sources: Sources<D>,
-    /// The cells that are connected to a source.
-    connected: Grid<bool, D>,
+    near: NearSources,
+    /// The cells that are connected to a source, once somebody asks.
+    connected: OnceLock<Grid<bool, D>>,
     /// Whether the potential has kinks, as that of a distance.
     has_kinks: bool,
 }
@@ -108,10 +112,9 @@ impl<'a, const D: usize> Descent<'a, D> {
         sources: &Sources<D>,
         medium: &'a Medium<D>,
     ) -> Self {
-        let shape = medium.shape();
-        let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
-        let connected = medium.mask().reachable_from(cells);
-        Self { potential, medium, sources: sources.clone(), connected, has_kinks }
+        let near = NearSources::new(medium.shape(), sources);
+        let connected = OnceLock::new();
+        Self { potential, medium, sources: sources.clone(), near, connected, has_kinks }
     }
 
     /// Traces the path from `end` (pixel coordinates) to a source.
@@ -141,6 +144,10 @@ impl<'a, const D: usize> Descent<'a, D> {
         })
     }
 
+    pub(crate) fn medium(&self) -> &'a Medium<D> {
+        self.medium
+    }
+
     fn shape(&self) -> &Shape<D> {
         self.medium.shape()
     }
@@ -149,14 +156,21 @@ impl<'a, const D: usize> Descent<'a, D> {
         self.medium.mask()
     }
 
-    fn trace(&self, end: [f64; D], options: PathOptions) -> (Vec<[f64; D]>, Ending) {
+    /// Whether open cells connect `cell` to a source.
+    fn is_connected(&self, cell: usize) -> bool {
+        let points = self.sources.points().iter();
+        let cells = points.map(|&point| self.shape().position(self.shape().cell_at(point)));
+        self.connected.get_or_init(|| self.mask().reachable_from(cells)).values()[cell]
+    }
+
+    /// The points from `end`, which lies in an open cell, to a source, and how they end.
+    pub(crate) fn trace(&self, end: [f64; D], options: PathOptions) -> (Vec<[f64; D]>, Ending) {
         let mut points = vec![end];
         let cell = self.shape().position(self.shape().cell_at(end));
-        if !self.connected.values()[cell] {
-            return (points, Ending::Unreachable);
-        }
-        if self.potential.values()[cell].is_infinite() {
-            return (points, Ending::NotReached);
+        if self.at(cell).is_infinite() {
+            let is_connected = self.is_connected(cell);
+            let ending = if is_connected { Ending::NotReached } else { Ending::Unreachable };
+            return (points, ending);
         }
         let step = options.step.clamp(1e-3, 1.0);
         let longest = self.shape().cells() as f64 * D as f64 / step;
@@ -184,17 +198,16 @@ impl<'a, const D: usize> Descent<'a, D> {
     }
 
     /// The nearest source less than one cell away along every axis and in plain sight.
-    fn source_at(&self, point: [f64; D]) -> Option<usize> {
-        let distance = |source: [f64; D]| self.shape().physical_distance(point, source);
-        let in_sight = |source: [f64; D]| {
-            (0..D).all(|axis| (point[axis] - source[axis]).abs() < 1.0)
-                && self.mask().segment_is_open(point, source)
+    pub(crate) fn source_at(&self, point: [f64; D]) -> Option<usize> {
+        let source = |number: usize| self.sources.points()[number];
+        let distance = |number: usize| self.shape().physical_distance(point, source(number));
+        let in_sight = |&number: &usize| {
+            (0..D).all(|axis| (point[axis] - source(number)[axis]).abs() < 1.0)
+                && self.mask().segment_is_open(point, source(number))
         };
-        let sources = self.sources.points().iter().enumerate();
-        sources
-            .filter(|&(_, &source)| in_sight(source))
-            .min_by(|a, b| distance(*a.1).total_cmp(&distance(*b.1)))
-            .map(|(number, _)| number)
+        let cell = self.shape().position(self.shape().cell_at(point));
+        let sources = self.near.around(self.shape(), cell).filter(in_sight);
+        sources.min_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)))
     }
 
     /// One step of the midpoint rule down the gradient; `None` unless it gets somewhere, ends lower
@@ -255,6 +268,39 @@ impl<'a, const D: usize> Descent<'a, D> {
                 around.min_by(lowest)
             })
         })
+    }
+
+    /// The next cell on the way from `cell` down to a source, all at cell centres: `cell` itself where
+    /// a source lies, the cell of a source that is at hand, and else the neighbour (across a face, an
+    /// edge or a corner) to which the potential falls most steeply in the metric.
+    ///
+    /// `None` where nothing has arrived.
+    pub(crate) fn next_cell(&self, cell: usize) -> Option<usize> {
+        let (shape, here) = (self.shape(), self.shape().centre(cell));
+        let cell_of = |number: usize| shape.position(shape.cell_at(self.sources.points()[number]));
+        if self.at(cell).is_infinite() {
+            return None;
+        }
+        if self.near.around(shape, cell).any(|number| cell_of(number) == cell) {
+            return Some(cell);
+        }
+        if let Some(number) = self.source_at(here) {
+            return Some(cell_of(number));
+        }
+        let tensor = self.medium.diffusion().tensor().map(|tensors| inverse(&tensors.at(cell)));
+        let steepness = |next: usize| {
+            let there = shape.centre(next);
+            let step = std::array::from_fn(|axis| shape.spacing()[axis] * (there[axis] - here[axis]));
+            let across = tensor.map_or(step, |metric| apply(&metric, step));
+            let length_sq: f64 = (0..D).map(|axis| step[axis] * across[axis]).sum();
+            (self.at(cell) - self.at(next)) / length_sq.sqrt()
+        };
+        let is_below = |&next: &usize| {
+            self.at(next) < self.at(cell) && self.mask().segment_is_open(here, shape.centre(next))
+        };
+        let below = shape.box_around(cell, 1).filter(is_below);
+        let steepest = below.max_by(|&a, &b| steepness(a).total_cmp(&steepness(b)));
+        steepest.or_else(|| self.lower(cell))
     }
 
     fn at(&self, cell: usize) -> f64 {
