@@ -15,7 +15,7 @@ use super::distance::{DistanceMap, NOT_REACHED};
 use super::heat::{Heat, NoExposure};
 use super::medium::Medium;
 use super::sample::corners;
-use super::tensor::{apply, inverse};
+use super::tensor::apply;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::iter;
 use std::sync::OnceLock;
@@ -158,9 +158,8 @@ impl<'a, const D: usize> Descent<'a, D> {
 
     /// Whether open cells connect `cell` to a source.
     fn is_connected(&self, cell: usize) -> bool {
-        let points = self.sources.points().iter();
-        let cells = points.map(|&point| self.shape().position(self.shape().cell_at(point)));
-        self.connected.get_or_init(|| self.mask().reachable_from(cells)).values()[cell]
+        let reachable = || self.mask().reachable_from(self.source_cells());
+        self.connected.get_or_init(reachable).values()[cell]
     }
 
     /// The points from `end`, which lies in an open cell, to a source, and how they end.
@@ -197,8 +196,14 @@ impl<'a, const D: usize> Descent<'a, D> {
         (points, Ending::StepLimit)
     }
 
+    /// The cells in which sources lie, in the order of their numbers.
+    pub(crate) fn source_cells(&self) -> impl Iterator<Item = usize> {
+        let points = self.sources.points().iter();
+        points.map(|&point| self.shape().position(self.shape().cell_at(point)))
+    }
+
     /// The nearest source less than one cell away along every axis and in plain sight.
-    pub(crate) fn source_at(&self, point: [f64; D]) -> Option<usize> {
+    fn source_at(&self, point: [f64; D]) -> Option<usize> {
         let source = |number: usize| self.sources.points()[number];
         let distance = |number: usize| self.shape().physical_distance(point, source(number));
         let in_sight = |&number: &usize| {
@@ -270,40 +275,8 @@ impl<'a, const D: usize> Descent<'a, D> {
         })
     }
 
-    /// The next cell on the way from `cell` down to a source, all at cell centres: `cell` itself where
-    /// a source lies, the cell of a source that is at hand, and else the neighbour (across a face, an
-    /// edge or a corner) to which the potential falls most steeply in the metric.
-    ///
-    /// `None` where nothing has arrived.
-    pub(crate) fn next_cell(&self, cell: usize) -> Option<usize> {
-        let (shape, here) = (self.shape(), self.shape().centre(cell));
-        let cell_of = |number: usize| shape.position(shape.cell_at(self.sources.points()[number]));
-        if self.at(cell).is_infinite() {
-            return None;
-        }
-        if self.near.around(shape, cell).any(|number| cell_of(number) == cell) {
-            return Some(cell);
-        }
-        if let Some(number) = self.source_at(here) {
-            return Some(cell_of(number));
-        }
-        let tensor = self.medium.diffusion().tensor().map(|tensors| inverse(&tensors.at(cell)));
-        let steepness = |next: usize| {
-            let there = shape.centre(next);
-            let step = std::array::from_fn(|axis| shape.spacing()[axis] * (there[axis] - here[axis]));
-            let across = tensor.map_or(step, |metric| apply(&metric, step));
-            let length_sq: f64 = (0..D).map(|axis| step[axis] * across[axis]).sum();
-            (self.at(cell) - self.at(next)) / length_sq.sqrt()
-        };
-        let is_below = |&next: &usize| {
-            self.at(next) < self.at(cell) && self.mask().segment_is_open(here, shape.centre(next))
-        };
-        let below = shape.box_around(cell, 1).filter(is_below);
-        let steepest = below.max_by(|&a, &b| steepness(a).total_cmp(&steepness(b)));
-        steepest.or_else(|| self.lower(cell))
-    }
-
-    fn at(&self, cell: usize) -> f64 {
+    /// The potential of a cell, infinite where nothing has arrived.
+    pub(crate) fn at(&self, cell: usize) -> f64 {
         self.potential.values()[cell]
     }
 

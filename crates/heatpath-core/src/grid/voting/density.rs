@@ -14,8 +14,8 @@ pub enum Counting {
     /// By tracing each path and marking every cell that it enters.
     #[default]
     Traced,
-    /// Without tracing: from far to near each cell hands its votes on to the cell next on the way
-    /// down.
+    /// By tracing no way twice: each path is cut into short pieces from cell centre to cell centre,
+    /// so that paths join, and each piece carries all votes that come to it.
     Flow,
 }
 
@@ -50,10 +50,7 @@ pub(super) fn votes<const D: usize>(
 ) -> Result<Grid<u32, D>, Cancelled> {
     match counting {
         Counting::Traced => traced_votes(descent, ends, growth, report, exec),
-        Counting::Flow => {
-            report(0.0)?;
-            Ok(flow_votes(descent, ends, growth))
-        }
+        Counting::Flow => flow_votes(descent, ends, growth, report, exec),
     }
 }
 
@@ -97,5 +94,8 @@ fn cells_of_path<const D: usize>(
     }
     let medium = descent.medium();
     let voting = growth.map_or(points.len(), |growth| growth.voting_points(medium, &points));
-    crossed(medium.shape(), &points[points.len() - voting..])
+    let mut cells = crossed(medium.shape(), &points[points.len() - voting..]);
+    cells.sort_unstable();
+    cells.dedup();
+    cells
 }

@@ -1,107 +1,156 @@
-//! The geodesic density without tracing: votes flow down.
+//! The geodesic density without tracing every path: votes flow down.
 //!
-//! From each cell one goes to the next on the way down, so the cells are a forest whose roots are
-//! the sources' cells. Each cell on the way of an end is asked for the next one once, however many
-//! ways go through it; then the votes are added up in one pass from far to near.
+//! From the centre of a cell a path is traced for a few cells only, and goes on from the centre of
+//! the cell that it comes to. So paths that come to the same cell are the same from there on, and
+//! each piece is traced once, however many paths go through it. The pieces are a forest whose roots
+//! are the sources' cells; votes are added up in one pass over it, from far to near.
 
 use super::Growth;
 use super::growth::step_length;
+use super::raster::crossed;
+use crate::exec::{Cancelled, Exec};
 use crate::grid::Grid;
-use crate::grid::path::Descent;
+use crate::grid::medium::Medium;
+use crate::grid::path::{Descent, Ending, PathOptions};
 
-/// The ways down from all ends to the sources.
-struct Forest {
-    /// The cells on the ways, each behind the next one on its own way.
-    near_to_far: Vec<usize>,
-    /// The next cell of each cell, itself at a source; or [`NOT_MET`] or [`LOST`].
-    next: Vec<usize>,
+/// The steps of a piece.
+const STEPS: usize = 8;
+
+/// A piece of a path.
+struct Piece {
+    /// The cells that it enters, from the one in whose centre it begins to the next such cell.
+    cells: Vec<usize>,
+    /// Its length in cell units from a cell to the next, on average.
+    length: f64,
+    /// From which of its cells on a vote counts that has not counted before, if from any.
+    begins: Option<usize>,
 }
 
-/// Of a cell on no way.
-const NOT_MET: usize = usize::MAX;
-
-/// Of a cell whose way ends at no source.
-const LOST: usize = usize::MAX - 1;
-
-impl Forest {
-    fn new<const D: usize>(descent: &Descent<'_, D>, ends: &[usize]) -> Self {
-        let cells = descent.medium().shape().cells();
-        let mut forest = Self { near_to_far: Vec::new(), next: vec![NOT_MET; cells] };
-        ends.iter().for_each(|&end| forest.add(descent, end));
-        forest
+impl Piece {
+    /// The piece that begins in `start`; `None` where no path does, or it finds no source.
+    fn trace<const D: usize>(descent: &Descent<'_, D>, start: usize) -> Option<Self> {
+        let shape = descent.medium().shape();
+        let short = PathOptions { largest_steps: Some(STEPS), ..PathOptions::default() };
+        let (mut points, mut ending) = descent.trace(shape.centre(start), short);
+        let last = shape.position(shape.cell_at(points[points.len() - 1]));
+        // Votes must not go round in circles.
+        let is_lower = descent.at(last) < descent.at(start);
+        if ending == Ending::StepLimit && !is_lower {
+            (points, ending) = descent.trace(shape.centre(start), PathOptions::default());
+        }
+        if !(matches!(ending, Ending::Source(_)) || is_lower) {
+            return None;
+        }
+        let cells = crossed(shape, &points);
+        let length: f64 = points.windows(2).map(|p| step_length(shape, p[0], p[1])).sum();
+        Some(Self { length: length / (cells.len() - 1).max(1) as f64, cells, begins: Some(0) })
     }
 
-    /// Adds the way down from `end` as far as it is new.
-    fn add<const D: usize>(&mut self, descent: &Descent<'_, D>, end: usize) {
-        let mut way = Vec::new();
-        let mut here = end;
-        while self.next[here] == NOT_MET {
-            let next = descent.next_cell(here).unwrap_or(LOST);
-            self.next[here] = next;
-            way.push(here);
-            if next == LOST || next == here {
-                break;
+    fn start(&self) -> usize {
+        self.cells[0]
+    }
+
+    fn end(&self) -> usize {
+        self.cells[self.cells.len() - 1]
+    }
+
+    /// The cells in which its votes count: the last one counts at the beginning of the next piece.
+    fn counting(&self) -> &[usize] {
+        &self.cells[..self.cells.len() - 1]
+    }
+
+    /// Finds out where votes begin to count, and how far outside of the structure the path has been
+    /// for when it comes, outwards, to the start of this piece if it had been outside for so long at its end;
+    /// infinite where it is cut.
+    fn grow<const D: usize>(&mut self, growth: &Growth, medium: &Medium<D>, outside: f64) -> f64 {
+        let mut outside = outside;
+        self.begins = None;
+        for (number, &cell) in self.cells[..self.cells.len() - 1].iter().enumerate().rev() {
+            outside += self.length;
+            if outside.is_finite() && growth.is_inside(medium, cell) {
+                (self.begins, outside) = (Some(number), 0.0);
+            } else if outside > growth.gap {
+                outside = f64::INFINITY;
             }
-            here = next;
         }
-        if self.next[here] == LOST {
-            way.iter().for_each(|&cell| self.next[cell] = LOST);
-        } else {
-            self.near_to_far.extend(way.iter().rev());
-        }
+        outside
     }
 }
 
-/// The votes of ways instead of paths.
+/// [`density`](super::density()) by [`Counting::Flow`](super::Counting::Flow), of checked ends.
 pub(super) fn flow_votes<const D: usize>(
     descent: &Descent<'_, D>,
     ends: &[[f64; D]],
     growth: Option<Growth>,
-) -> Grid<u32, D> {
+    report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
+    exec: &Exec,
+) -> Result<Grid<u32, D>, Cancelled> {
     let shape = *descent.medium().shape();
     let ends: Vec<usize> = ends.iter().map(|&end| shape.position(shape.cell_at(end))).collect();
-    let forest = Forest::new(descent, &ends);
-    let mut waiting = vec![0; shape.cells()];
-    ends.iter().for_each(|&end| waiting[end] += 1);
-    let votes_here = where_votes_count(descent, &forest, growth);
-    let mut votes = vec![0; shape.cells()];
-    for (&cell, counts) in forest.near_to_far.iter().zip(votes_here).rev() {
-        // A vote waits until it comes to where it counts, and counts all the way from there.
-        if counts {
-            votes[cell] += std::mem::take(&mut waiting[cell]);
-        }
-        let next = forest.next[cell];
-        if next != cell {
-            votes[next] += votes[cell];
-            waiting[next] += std::mem::take(&mut waiting[cell]);
+    let mut pieces = pieces(descent, &ends, report, exec)?;
+    if let Some(growth) = growth {
+        let mut outside = vec![0.0; shape.cells()];
+        for piece in &mut pieces {
+            outside[piece.start()] = piece.grow(&growth, descent.medium(), outside[piece.end()]);
         }
     }
-    Grid::from_parts(shape, votes)
+    Ok(Grid::from_parts(shape, add_up(descent, &ends, &pieces)))
 }
 
-/// Of each cell from near to far: whether a vote that comes there begins to count.
-fn where_votes_count<const D: usize>(
+/// The pieces of all ways from `ends` to the sources, from near to far.
+fn pieces<const D: usize>(
     descent: &Descent<'_, D>,
-    forest: &Forest,
-    growth: Option<Growth>,
-) -> Vec<bool> {
-    let Some(growth) = growth else {
-        return vec![true; forest.near_to_far.len()];
-    };
-    let medium = descent.medium();
-    let shape = medium.shape();
-    // How far outside of the structure the way has been for; infinite where it is cut.
-    let mut outside = vec![0.0; shape.cells()];
-    let counts = forest.near_to_far.iter().map(|&cell| {
-        let next = forest.next[cell];
-        if next == cell {
-            return true;
+    ends: &[usize],
+    report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
+    exec: &Exec,
+) -> Result<Vec<Piece>, Cancelled> {
+    let mut is_known = vec![false; descent.medium().shape().cells()];
+    descent.source_cells().for_each(|cell| is_known[cell] = true);
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut starts = ends.to_vec();
+    loop {
+        starts.retain(|&start| !std::mem::replace(&mut is_known[start], true));
+        if starts.is_empty() {
+            break;
         }
-        let length = outside[next] + step_length(shape, shape.centre(cell), shape.centre(next));
-        let is_inside = growth.is_inside(medium, cell) && length.is_finite();
-        let is_cut = length > growth.gap;
-        outside[cell] = if is_inside { 0.0 } else if is_cut { f64::INFINITY } else { length };
-        is_inside
-    });
-    counts.collect()
+        report(0.0)?;
+        let mut found: Vec<_> = starts.iter().map(|&start| (start, None)).collect();
+        exec.for_each(&mut found, |(start, piece)| *piece = Piece::trace(descent, *start));
+        let first = pieces.len();
+        pieces.extend(found.into_iter().filter_map(|(_, piece)| piece));
+        starts = pieces[first..].iter().map(Piece::end).collect();
+    }
+    let height = |piece: &Piece| descent.at(piece.start());
+    pieces.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    Ok(pieces)
+}
+
+/// Lets the votes of `ends` flow down the `pieces`.
+fn add_up<const D: usize>(
+    descent: &Descent<'_, D>,
+    ends: &[usize],
+    pieces: &[Piece],
+) -> Vec<u32> {
+    let cells = descent.medium().shape().cells();
+    // The votes that come to the start of a piece and count already, and those that do not yet.
+    let (mut counting, mut waiting) = (vec![0; cells], vec![0; cells]);
+    ends.iter().for_each(|&end| waiting[end] += 1);
+    let mut votes = vec![0; cells];
+    for piece in pieces.iter().rev() {
+        let mut count = std::mem::take(&mut counting[piece.start()]);
+        let mut wait = std::mem::take(&mut waiting[piece.start()]);
+        for (number, &cell) in piece.counting().iter().enumerate() {
+            if piece.begins == Some(number) {
+                count += std::mem::take(&mut wait);
+            }
+            votes[cell] += count;
+        }
+        counting[piece.end()] += count;
+        waiting[piece.end()] += wait;
+    }
+    let mut roots: Vec<usize> = descent.source_cells().collect();
+    roots.sort_unstable();
+    roots.dedup();
+    roots.into_iter().for_each(|root| votes[root] += counting[root] + waiting[root]);
+    votes
 }
