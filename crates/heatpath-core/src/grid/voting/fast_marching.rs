@@ -12,7 +12,8 @@ use crate::grid::path::Descent;
 /// Where the paths begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ends {
-    /// At cells drawn at random from all open ones, with equal chances; the same seed draws the same cells.
+    /// At cells drawn at random from all open ones, with equal chances; the same seed draws the
+    /// same cells.
     Random {
         /// How many, at least 1; the paper draws 500.
         count: usize,
@@ -48,9 +49,9 @@ impl Default for FastMarchingVotingOptions {
     }
 }
 
-/// Geodesic voting by fast marching: paths from all over the picture down the exact distance from `sources`
-/// to them, and the cells through which most of them go (Rouchdy & Cohen 2013). The
-/// baseline of the paper's Figures 16 to 18.
+/// Geodesic voting by fast marching: paths from all over the picture down the exact distance to
+/// `sources`, and the cells through which most of them go (Rouchdy & Cohen 2013). The baseline of
+/// the paper's Figures 16 to 18, in one round.
 ///
 /// # Errors
 /// A parameter out of range, a grid too large for fast marching, or the caller cancelled.
@@ -63,7 +64,8 @@ pub fn vote_by_fast_marching<const D: usize>(
     let &FastMarchingVotingOptions { ends, threshold, counting } = options;
     check_threshold(threshold)?;
     let cells = cells(ends, medium)?;
-    let distances = Eikonal::new(medium, exec)?.distance(sources, &EikonalOptions::default(), exec)?;
+    let distances =
+        Eikonal::new(medium, exec)?.distance(sources, &EikonalOptions::default(), exec)?;
     let descent = Descent::of_distances(&distances, sources, medium);
     let ends: Vec<_> = cells.into_iter().map(|cell| medium.shape().centre(cell)).collect();
     let report = &mut |finished| exec.report(finished);
@@ -83,7 +85,8 @@ fn cells<const D: usize>(ends: Ends, medium: &Medium<D>) -> Result<Vec<usize>, V
             Err(VotingError::Parameter { name, value: 0.0, range })
         }
         Ends::Random { count, seed } => {
-            let open: Vec<usize> = (0..open.values().len()).filter(|&cell| open.values()[cell]).collect();
+            let open: Vec<usize> =
+                (0..open.values().len()).filter(|&cell| open.values()[cell]).collect();
             let mut random = SplitMix(seed);
             Ok((0..count).map(|_| open[random.below(open.len())]).collect())
         }
@@ -99,6 +102,6 @@ impl SplitMix {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (u128::from(z ^ z >> 31) * end as u128 >> 64) as usize
+        ((u128::from(z ^ z >> 31) * end as u128) >> 64) as usize
     }
 }

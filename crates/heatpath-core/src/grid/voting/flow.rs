@@ -59,9 +59,9 @@ impl Piece {
         &self.cells[..self.cells.len() - 1]
     }
 
-    /// Finds out where votes begin to count, and how far outside of the structure the path has been
-    /// for when it comes, outwards, to the start of this piece if it had been outside for so long at its end;
-    /// infinite where it is cut.
+    /// Finds out where votes begin to count. Walking outwards, a path that comes to the end of this
+    /// piece after so long outside of the structure has been outside for the returned length at its
+    /// start; infinite where it is cut.
     fn grow<const D: usize>(&mut self, growth: &Growth, medium: &Medium<D>, outside: f64) -> f64 {
         let mut outside = outside;
         self.begins = None;
@@ -122,15 +122,18 @@ fn pieces<const D: usize>(
     }
     let height = |piece: &Piece| descent.at(piece.start());
     pieces.sort_by(|a, b| height(a).total_cmp(&height(b)));
+    // A path that reaches no source does not vote.
+    let mut leads_to_source = vec![false; is_known.len()];
+    descent.source_cells().for_each(|cell| leads_to_source[cell] = true);
+    pieces.retain(|piece| {
+        leads_to_source[piece.start()] = leads_to_source[piece.end()];
+        leads_to_source[piece.end()]
+    });
     Ok(pieces)
 }
 
 /// Lets the votes of `ends` flow down the `pieces`.
-fn add_up<const D: usize>(
-    descent: &Descent<'_, D>,
-    ends: &[usize],
-    pieces: &[Piece],
-) -> Vec<u32> {
+fn add_up<const D: usize>(descent: &Descent<'_, D>, ends: &[usize], pieces: &[Piece]) -> Vec<u32> {
     let cells = descent.medium().shape().cells();
     // The votes that come to the start of a piece and count already, and those that do not yet.
     let (mut counting, mut waiting) = (vec![0; cells], vec![0; cells]);

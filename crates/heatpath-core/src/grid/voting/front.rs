@@ -15,9 +15,9 @@ pub fn covered<const D: usize>(heat: &Heat<D>, level: f64) -> Grid<bool, D> {
 /// The front of a region: the positions of its cells on its outer boundary, in ascending order.
 ///
 /// Beyond the outer boundary lies what is connected, through faces of cells that are not in the
-/// region, to the border of the picture: open cells and walls alike. The border of the picture itself is a
-/// boundary too. So holes in the region have no front, and of a region that fills its domain the
-/// front is the border of that domain, from which Rouchdy & Cohen (2013) let paths begin.
+/// region, to the border of the picture: open cells and walls alike. The border of the picture
+/// itself is a boundary too. So holes in the region have no front, and of a region that fills its
+/// domain the front is the border of that domain, from which Rouchdy & Cohen (2013) let paths begin.
 #[must_use]
 pub fn front<const D: usize>(region: &Grid<bool, D>) -> Vec<usize> {
     let shape = region.shape();

@@ -7,8 +7,16 @@ use crate::grid::medium::Medium;
 /// Where votes end: at the edge of the structure, which is where the medium is fast.
 ///
 /// A path votes only with its part from the source to where it leaves the structure for good.
-/// Walking outwards from the source, it is cut at the first stretch outside of the structure that is longer
-/// than the gap; a stretch outside at its end is cut off too. The source itself counts as inside.
+/// Walking outwards from the source, it is cut at the first stretch outside of the structure that
+/// is longer than the gap; a stretch outside at its end is cut off too. The source itself counts as
+/// inside.
+///
+/// Without it the paper's rules alone run on into the background once all branches are found. On
+/// the generated tree of [`VotingOptions::level`](super::VotingOptions::level) accumulated votes
+/// have a recall of 0.97 and a precision of 0.48 and 0.50; with growth, whose gap may be 2 or 5
+/// alike, the precision is 0.99 in the conductivity of eq. (6) for a least squared speed of 0.1 to
+/// 0.45 (about half of the largest). In vesselness, a ridge with broad sides, it is 0.65 for 0.005,
+/// 0.81 for 0.05 and 0.996 for 0.15.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
     /// The squared speed ([`Medium::speed_sq`]) from which on a cell belongs to the structure.

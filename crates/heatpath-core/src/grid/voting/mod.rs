@@ -1,10 +1,11 @@
 //! Structures found by the votes of many minimal paths (Yang & Cohen, section 4.1).
 //!
 //! Paths from everywhere to one source run together in the branches of a tree. Where many of them
-//! pass, the geodesic density of eq. (23), there is a branch (Rouchdy & Cohen 2013). Here the paths
-//! begin at the front of the region that heat covers, and heat flows on, or again from all that has
-//! been found, until Algorithm 1 stops ([`vote`]). [`vote_by_fast_marching`] is the original, with ends at random
-//! or at the border.
+//! pass, the geodesic density of eq. (23), there is a branch (Rouchdy & Cohen, "Geodesic voting for
+//! the automatic extraction of tree structures", 2013). Here the paths begin at the front of the
+//! region that heat covers, and heat flows on, or again from all that has been found, until
+//! Algorithm 1 stops: [`vote`]. [`vote_by_fast_marching`] is the original, with ends at random or at
+//! the border.
 
 mod density;
 mod fast_marching;
@@ -98,12 +99,30 @@ pub enum VotingError {
 
 /// Lets heat flow from `sources` in `medium` and finds the structure by votes.
 ///
-/// Each round heat flows, paths run from the front of the region that it [covers](covered) down to
-/// the sources, and cells are kept through which more paths go than a part of the largest number (eq. 23).
-/// [`VotingOptions::method`] says what heat does next. The rounds end by the two rules of
-/// Algorithm 1: a large enough share of the picture is kept, or few of the kept cells are new.
+/// Each round heat flows, paths run from the front of the region that it [covers](covered()) down
+/// to the sources, and cells are kept through which more paths go than a part of the largest number
+/// (eq. 23). [`VotingOptions::method`] says what heat does next. The rounds end by the two rules of
+/// Algorithm 1: a large enough share of the picture is kept, or few of the kept cells are new. Walls
+/// do not count as picture.
 ///
-/// Cells in walls do not count as picture.
+/// Progress is that of the larger of two shares: of the picture that may be kept, and of the
+/// rounds. The second rule may end it sooner.
+///
+/// ```
+/// use heatpath_core::Exec;
+/// use heatpath_core::grid::voting::{Growth, VotingOptions, vote};
+/// use heatpath_core::grid::{Grid, Shape, Sources, medium};
+///
+/// let is_cross = |[x, y]: [usize; 2]| x.abs_diff(40) < 3 || y.abs_diff(30) < 3;
+/// let image = Grid::from_fn(Shape::new([80, 60])?, |index| f64::from(u8::from(is_cross(index))));
+/// let medium = medium::conductivity(&image, &[1.0], Default::default())?;
+/// let sources = Sources::new(&[[40.0, 50.0]], medium.mask())?;
+/// let growth = Some(Growth { least_speed_sq: 0.5, gap: 3.0 });
+/// let options = VotingOptions { growth, ..VotingOptions::default() };
+/// let votes = vote(&medium, &sources, &options, &Exec::single_threaded())?;
+/// assert!(votes.kept[[40, 20]] && votes.kept[[20, 30]] && !votes.kept[[20, 20]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// A parameter out of range, heat that cannot flow, or the caller cancelled.

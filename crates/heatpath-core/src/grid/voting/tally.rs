@@ -42,7 +42,7 @@ impl<'a, const D: usize> Tally<'a, D> {
     ) -> Result<(), Cancelled> {
         let finished = self.finished(options);
         let report = &mut |_| exec.report(finished);
-        let region = covered(heat, options.level);
+        let region = covered(heat, options.level());
         report(0.0)?;
         let shape = self.medium.shape();
         let ends: Vec<_> = front(&region).into_iter().map(|cell| shape.centre(cell)).collect();
