@@ -20,8 +20,9 @@ pub enum Counting {
     /// On a generated tree, with 1023 and 1081 long paths, all kept cells are within one cell of
     /// those of the other way of counting if growth stops at the structure's edge; without it 99.8 per
     /// cent in vesselness, and 89 in the conductivity of eq. (6), where paths through the even
-    /// background join elsewhere. To the nearest neighbour from cell to cell, as water flows in
-    /// terrain models, votes run along the axes and diagonals: precision there falls by 5 to 15 per cent.
+    /// background join elsewhere. Votes that went from cell to neighbouring cell instead, as water
+    /// does in terrain models, ran along the axes and diagonals: in the conductivity the precision
+    /// fell by 5 to 15 points.
     Flow,
 }
 

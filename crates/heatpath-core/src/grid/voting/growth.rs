@@ -12,7 +12,7 @@ use crate::grid::medium::Medium;
 /// inside.
 ///
 /// Without it the paper's rules alone run on into the background once all branches are found. On
-/// the generated tree of [`VotingOptions::level`](super::VotingOptions::level) accumulated votes
+/// the generated tree of [`VotingOptions::level`](field@super::VotingOptions::level) accumulated votes
 /// have a recall of 0.97 and a precision of 0.48 and 0.50; with growth, whose gap may be 2 or 5
 /// alike, the precision is 0.99 in the conductivity of eq. (6) for a least squared speed of 0.1 to
 /// 0.45 (about half of the largest). In vesselness, a ridge with broad sides, it is 0.65 for 0.005,
