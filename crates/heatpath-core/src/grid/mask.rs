@@ -38,6 +38,11 @@ impl<const D: usize> Mask<D> {
         self.open.values()[position]
     }
 
+    /// Which cells are open.
+    pub(crate) fn open_cells(&self) -> &Grid<bool, D> {
+        &self.open
+    }
+
     /// Whether there are no walls.
     #[must_use]
     pub fn is_all_open(&self) -> bool {
@@ -56,6 +61,11 @@ impl<const D: usize> Mask<D> {
     /// a corner only: a segment through that corner is refused.
     #[must_use]
     pub fn segment_is_open(&self, from: [f64; D], to: [f64; D]) -> bool {
+        let (first, last) = (self.shape().cell_at(from), self.shape().cell_at(to));
+        let touch = (0..D).all(|axis| first[axis].abs_diff(last[axis]) <= 1);
+        if touch && self.step_is_open(first, last) {
+            return true;
+        }
         // === The parameters in (0, 1) at which the segment crosses a cell border
         let mut crossings = vec![0.0, 1.0];
         for axis in 0..D {

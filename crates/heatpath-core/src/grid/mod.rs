@@ -20,6 +20,7 @@ mod shape;
 mod source;
 mod stencil;
 mod tensor;
+pub mod voting;
 
 pub use eigen::eigen;
 pub use field::{Grid, LengthError, NotFinite, fraction};

@@ -89,6 +89,11 @@ impl<const D: usize> Sources<D> {
         &self.points
     }
 
+    /// Adds points on open cells.
+    pub(crate) fn extend(&mut self, points: impl IntoIterator<Item = [f64; D]>) {
+        self.points.extend(points);
+    }
+
     /// Each of the points as a set of its own.
     #[must_use]
     pub fn each(&self) -> Vec<Self> {

@@ -7,8 +7,10 @@
 //! no maximum but the sources, whatever the medium and the walls, so a path that can reach a source
 //! does.
 
+mod near;
 mod potential;
 
+use self::near::NearSources;
 use super::distance::{DistanceMap, NOT_REACHED};
 use super::heat::{Heat, NoExposure};
 use super::medium::Medium;
@@ -16,6 +18,7 @@ use super::sample::corners;
 use super::tensor::apply;
 use super::{Grid, Mask, PointError, Shape, Sources, check_points};
 use std::iter;
+use std::sync::OnceLock;
 
 /// How a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +77,9 @@ pub struct Descent<'a, const D: usize> {
     potential: Grid<f64, D>,
     medium: &'a Medium<D>,
     sources: Sources<D>,
-    /// The cells that are connected to a source.
-    connected: Grid<bool, D>,
+    near: NearSources,
+    /// The cells that are connected to a source, once somebody asks.
+    connected: OnceLock<Grid<bool, D>>,
     /// Whether the potential has kinks, as that of a distance.
     has_kinks: bool,
 }
@@ -108,10 +112,9 @@ impl<'a, const D: usize> Descent<'a, D> {
         sources: &Sources<D>,
         medium: &'a Medium<D>,
     ) -> Self {
-        let shape = medium.shape();
-        let cells = sources.points().iter().map(|&point| shape.position(shape.cell_at(point)));
-        let connected = medium.mask().reachable_from(cells);
-        Self { potential, medium, sources: sources.clone(), connected, has_kinks }
+        let near = NearSources::new(medium.shape(), sources);
+        let connected = OnceLock::new();
+        Self { potential, medium, sources: sources.clone(), near, connected, has_kinks }
     }
 
     /// Traces the path from `end` (pixel coordinates) to a source.
@@ -141,6 +144,10 @@ impl<'a, const D: usize> Descent<'a, D> {
         })
     }
 
+    pub(crate) fn medium(&self) -> &'a Medium<D> {
+        self.medium
+    }
+
     fn shape(&self) -> &Shape<D> {
         self.medium.shape()
     }
@@ -149,14 +156,20 @@ impl<'a, const D: usize> Descent<'a, D> {
         self.medium.mask()
     }
 
-    fn trace(&self, end: [f64; D], options: PathOptions) -> (Vec<[f64; D]>, Ending) {
+    /// Whether open cells connect `cell` to a source.
+    fn is_connected(&self, cell: usize) -> bool {
+        let reachable = || self.mask().reachable_from(self.source_cells());
+        self.connected.get_or_init(reachable).values()[cell]
+    }
+
+    /// The points from `end`, which lies in an open cell, to a source, and how they end.
+    pub(crate) fn trace(&self, end: [f64; D], options: PathOptions) -> (Vec<[f64; D]>, Ending) {
         let mut points = vec![end];
         let cell = self.shape().position(self.shape().cell_at(end));
-        if !self.connected.values()[cell] {
-            return (points, Ending::Unreachable);
-        }
-        if self.potential.values()[cell].is_infinite() {
-            return (points, Ending::NotReached);
+        if self.at(cell).is_infinite() {
+            let is_connected = self.is_connected(cell);
+            let ending = if is_connected { Ending::NotReached } else { Ending::Unreachable };
+            return (points, ending);
         }
         let step = options.step.clamp(1e-3, 1.0);
         let longest = self.shape().cells() as f64 * D as f64 / step;
@@ -183,18 +196,23 @@ impl<'a, const D: usize> Descent<'a, D> {
         (points, Ending::StepLimit)
     }
 
+    /// The cells in which sources lie, in the order of their numbers.
+    pub(crate) fn source_cells(&self) -> impl Iterator<Item = usize> {
+        let points = self.sources.points().iter();
+        points.map(|&point| self.shape().position(self.shape().cell_at(point)))
+    }
+
     /// The nearest source less than one cell away along every axis and in plain sight.
     fn source_at(&self, point: [f64; D]) -> Option<usize> {
-        let distance = |source: [f64; D]| self.shape().physical_distance(point, source);
-        let in_sight = |source: [f64; D]| {
-            (0..D).all(|axis| (point[axis] - source[axis]).abs() < 1.0)
-                && self.mask().segment_is_open(point, source)
+        let source = |number: usize| self.sources.points()[number];
+        let distance = |number: usize| self.shape().physical_distance(point, source(number));
+        let in_sight = |&number: &usize| {
+            (0..D).all(|axis| (point[axis] - source(number)[axis]).abs() < 1.0)
+                && self.mask().segment_is_open(point, source(number))
         };
-        let sources = self.sources.points().iter().enumerate();
-        sources
-            .filter(|&(_, &source)| in_sight(source))
-            .min_by(|a, b| distance(*a.1).total_cmp(&distance(*b.1)))
-            .map(|(number, _)| number)
+        let cell = self.shape().position(self.shape().cell_at(point));
+        let sources = self.near.around(self.shape(), cell).filter(in_sight);
+        sources.min_by(|&a, &b| distance(a).total_cmp(&distance(b)).then(a.cmp(&b)))
     }
 
     /// One step of the midpoint rule down the gradient; `None` unless it gets somewhere, ends lower
@@ -257,7 +275,8 @@ impl<'a, const D: usize> Descent<'a, D> {
         })
     }
 
-    fn at(&self, cell: usize) -> f64 {
+    /// The potential of a cell, infinite where nothing has arrived.
+    pub(crate) fn at(&self, cell: usize) -> f64 {
         self.potential.values()[cell]
     }
 

@@ -204,11 +204,20 @@ impl<'a, const D: usize> Explicit<'a, D> {
     /// # Errors
     /// The medium is slower in places than any range of numbers, or the caller cancelled.
     pub fn flow(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, HeatError> {
-        let amounts = vec![1.0; sources.points().len()];
-        let report = &mut |finished| exec.report(finished);
-        let heat = self.flow_amounts(sources, amounts, self.exposure, report, exec)?;
+        let heat = self.flow_reporting(sources, &mut |finished| exec.report(finished), exec)?;
         exec.report(1.0)?;
         Ok(heat)
+    }
+
+    /// [`flow`](Self::flow) as a part of something longer, told of its progress by `report`.
+    pub(crate) fn flow_reporting(
+        &self,
+        sources: &Sources<D>,
+        report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
+        exec: &Exec,
+    ) -> Result<Heat<D>, HeatError> {
+        let amounts = vec![1.0; sources.points().len()];
+        self.flow_amounts(sources, amounts, self.exposure, report, exec)
     }
 
     /// Lets heat flow from `sources` with amounts that make them equally warm at the end.

@@ -1,0 +1,100 @@
+//! What has been found up to a round.
+
+use super::density::votes;
+use super::{Round, Stop, Votes, VotingOptions, covered, front};
+use crate::exec::{Cancelled, Exec};
+use crate::grid::heat::Heat;
+use crate::grid::medium::Medium;
+use crate::grid::path::Descent;
+use crate::grid::{Grid, Sources};
+
+/// The list L of Algorithm 1, and the votes up to now.
+pub(super) struct Tally<'a, const D: usize> {
+    medium: &'a Medium<D>,
+    /// The sources and the centres of the kept cells.
+    pub(super) found: Sources<D>,
+    density: Grid<u32, D>,
+    kept: Grid<bool, D>,
+    open: usize,
+    pub(super) rounds: Vec<Round>,
+}
+
+impl<'a, const D: usize> Tally<'a, D> {
+    pub(super) fn new(medium: &'a Medium<D>, sources: &Sources<D>) -> Self {
+        let mut kept = medium.mask().open_cells().map(|_| false);
+        sources.points().iter().for_each(|&point| kept[medium.shape().cell_at(point)] = true);
+        Self {
+            medium,
+            found: sources.clone(),
+            density: kept.map(|_| 0),
+            kept,
+            open: medium.mask().open_cells().values().iter().filter(|&&open| open).count(),
+            rounds: Vec::new(),
+        }
+    }
+
+    /// Votes from the front of `heat`.
+    pub(super) fn vote(
+        &mut self,
+        heat: &Heat<D>,
+        options: &VotingOptions,
+        exec: &Exec,
+    ) -> Result<(), Cancelled> {
+        let finished = self.finished(options);
+        let report = &mut |_| exec.report(finished);
+        let region = covered(heat, options.level());
+        report(0.0)?;
+        let shape = self.medium.shape();
+        let ends: Vec<_> = front(&region).into_iter().map(|cell| shape.centre(cell)).collect();
+        let descent = Descent::new(heat, self.medium).expect("heat keeps its exposure by default");
+        let counting = (options.counting, options.growth);
+        let density = votes(&descent, &ends, counting, report, exec)?;
+        let covered = region.values().iter().filter(|&&is_inside| is_inside).count();
+        self.count(&density, options.threshold(), (covered, ends.len()));
+        Ok(())
+    }
+
+    /// Keeps the cells above the threshold.
+    pub(super) fn count(
+        &mut self,
+        density: &Grid<u32, D>,
+        threshold: f64,
+        (covered, ends): (usize, usize),
+    ) {
+        let votes = density.values();
+        let largest_density = votes.iter().copied().max().unwrap_or(0);
+        let least = threshold * f64::from(largest_density);
+        let kept = self.kept.values_mut();
+        let is_new = |&cell: &usize| f64::from(votes[cell]) > least && !kept[cell];
+        let new: Vec<usize> = (0..votes.len()).filter(is_new).collect();
+        new.iter().for_each(|&cell| kept[cell] = true);
+        self.found.extend(new.iter().map(|&cell| self.medium.shape().centre(cell)));
+        self.density.values_mut().iter_mut().zip(votes).for_each(|(sum, votes)| *sum += votes);
+        let kept = self.kept.values().iter().filter(|&&kept| kept).count();
+        self.rounds.push(Round { covered, ends, largest_density, kept, new: new.len() });
+    }
+
+    /// Whether one of the rules of Algorithm 1 is met, or all rounds are over.
+    pub(super) fn stop(&self, options: &VotingOptions) -> Option<Stop> {
+        let &Round { kept, new, .. } = self.rounds.last()?;
+        if kept as f64 > options.largest_share * self.open as f64 {
+            Some(Stop::LargestShare)
+        } else if (kept - new) as f64 > options.settled_share * kept as f64 {
+            Some(Stop::Settled)
+        } else {
+            (self.rounds.len() >= options.most_rounds()).then_some(Stop::Rounds)
+        }
+    }
+
+    /// How far voting is on its way to the end that is in sight.
+    pub(super) fn finished(&self, options: &VotingOptions) -> f64 {
+        let Some(round) = self.rounds.last() else { return 0.0 };
+        let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
+        let share = round.kept as f64 / (options.largest_share * self.open as f64);
+        rounds.max(share).min(1.0)
+    }
+
+    pub(super) fn votes(self, stopped: Stop) -> Votes<D> {
+        Votes { density: self.density, kept: self.kept, rounds: self.rounds, stopped }
+    }
+}
