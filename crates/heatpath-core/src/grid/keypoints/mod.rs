@@ -1,0 +1,188 @@
+//! Key points: curves and trees from a single point, piece by piece (Yang & Cohen, section 4.2).
+
+mod circle;
+mod growth;
+mod region;
+mod search;
+mod window;
+
+use self::growth::Growth;
+use self::search::Search;
+use super::heat::HeatError;
+use super::medium::Medium;
+use super::path::Path;
+use super::{Grid, PointError, Sources, check_points};
+use crate::exec::{Cancelled, Exec};
+use thiserror::Error;
+
+/// How warm a peak on a circle must be (epsilon 1 of Algorithm 2), measured by the first circles, those
+/// around the seeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Threshold {
+    /// At least this part of the highest temperature on the first circles: the paper's rule, with 0.8.
+    ///
+    /// Temperature falls like `exp(-distance^2 / 4t)`: at a radius of 30 and after 50 steps, four
+    /// fifths of it are lost over a seventh of a cell. Branches that are a little slower than the first
+    /// do not pass.
+    Temperature(f64),
+    /// The way there was made at this part of the highest speed on the first circles at least: the
+    /// least [`normalized`](super::distance::normalized) distance on these, over that of the peak.
+    Speed(f64),
+}
+
+/// The parameters of [`key_points`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct KeyPointOptions {
+    /// The radius r of the circle, or sphere, around a key point, in cell units (multiples of the
+    /// smallest spacing). At least 4; default 30, as in the paper.
+    ///
+    /// A closed curve is found if it does not fit into a circle, and of branches those that leave one or
+    /// end in one as a tip.
+    pub radius: f64,
+    /// The steps of heat for each key point. Default 50, as in the paper; as heat moves one cell a step
+    /// along an axis, the number is raised until it comes to all of the circle, if it is less
+    /// ([`KeyPoints::iterations`] says what it was).
+    pub iterations: usize,
+    /// How warm a peak must be.
+    pub threshold: Threshold,
+    /// The squared speed `k D` of the medium (alpha of eq. 6, for example) that counts as part of the
+    /// structure (epsilon 2): all of a path must run there, not only the key point lie in it. Not
+    /// negative; default 0.1.
+    pub least_speed_sq: f64,
+    /// Whether to look inside the circles for the ends of branches, which come to no circle. Default
+    /// true.
+    pub tips: bool,
+    /// The largest number of key points, seeds included; default 10000.
+    pub most: usize,
+}
+
+impl Default for KeyPointOptions {
+    fn default() -> Self {
+        Self {
+            radius: 30.0,
+            iterations: 50,
+            threshold: Threshold::Speed(0.5),
+            least_speed_sq: 0.1,
+            tips: true,
+            most: 10_000,
+        }
+    }
+}
+
+/// The smallest radius.
+pub const SMALLEST_RADIUS: f64 = 4.0;
+
+/// Why there are no key points.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum KeyPointError {
+    /// A parameter is outside its range.
+    #[error("{name} is {value}; it must be {range}")]
+    Parameter {
+        /// The parameter's name.
+        name: &'static str,
+        /// The rejected value.
+        value: f64,
+        /// What would be right.
+        range: &'static str,
+    },
+    /// A seed lies outside the grid or in a wall.
+    #[error(transparent)]
+    Point(#[from] PointError),
+    /// Heat cannot flow.
+    #[error(transparent)]
+    Heat(#[from] HeatError),
+    /// The caller cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// A point on the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeyPoint<const D: usize> {
+    /// In pixel coordinates.
+    pub point: [f64; D],
+    /// The number of the key point on whose circle it was found; `None` for seeds.
+    pub parent: Option<usize>,
+    /// The logarithm of the temperature there, with heat from the parent; 0 for seeds.
+    pub ln_temperature: f64,
+}
+
+/// A piece of curve between two key points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link<const D: usize> {
+    /// The number of the key point where the path begins.
+    pub from: usize,
+    /// The number of the key point where it ends, as its [`Ending`](super::path::Ending) says too.
+    pub to: usize,
+    /// The path.
+    pub path: Path<D>,
+}
+
+/// Why the search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// No circle has a peak left that is new.
+    Complete,
+    /// There were as many key points as allowed.
+    Most,
+}
+
+/// Key points and the curves between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeyPoints<const D: usize> {
+    /// The seeds, in the order in which they were given, and then what was found, in that order.
+    pub points: Vec<KeyPoint<D>>,
+    /// From each key point but the seeds the path to its parent; and those between key points neither
+    /// of which is the parent of the other, which close a curve.
+    pub links: Vec<Link<D>>,
+    /// The travelling map (Fig. 19 h): the distance of each cell from the first key point in whose
+    /// circle it lies, [`NOT_REACHED`](super::distance::NOT_REACHED) where there is none.
+    pub travelling: Grid<f64, D>,
+    /// The steps of heat for each key point.
+    pub iterations: usize,
+    /// Why the search ended.
+    pub stop: Stop,
+}
+
+impl<const D: usize> KeyPoints<D> {
+    /// The links that close a curve.
+    pub fn closing(&self) -> impl Iterator<Item = &Link<D>> {
+        self.links.iter().filter(|link| self.points[link.from].parent != Some(link.to))
+    }
+}
+
+/// Finds the key points of a structure in a `medium` that lets heat run in it, and the paths between
+/// them (Algorithm 2), from `seeds` on the structure.
+///
+/// # Errors
+/// A parameter out of range, a seed outside the grid or in a wall, heat that cannot flow, or the caller
+/// cancelled.
+pub fn key_points<const D: usize>(
+    medium: &Medium<D>,
+    seeds: &Sources<D>,
+    options: &KeyPointOptions,
+    exec: &Exec,
+) -> Result<KeyPoints<D>, KeyPointError> {
+    check(options)?;
+    check_points("source", seeds.points(), medium.mask())?;
+    let search = Search::new(medium, seeds, options, exec)?;
+    Growth::new(&search, seeds).run(exec)
+}
+
+fn check(options: &KeyPointOptions) -> Result<(), KeyPointError> {
+    let part = match options.threshold {
+        Threshold::Temperature(part) | Threshold::Speed(part) => part,
+    };
+    let checks = [
+        ("radius", options.radius, SMALLEST_RADIUS..=1e4, "from 4 to 10000 cells"),
+        ("threshold", part, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1"),
+        ("least squared speed", options.least_speed_sq, 0.0..=f64::MAX, "finite and not negative"),
+        ("number of key points", options.most as f64, 1.0..=f64::MAX, "at least 1"),
+        ("number of steps", options.iterations as f64, 1.0..=1e6, "from 1 to 1000000"),
+    ];
+    match checks.into_iter().find(|(_, value, allowed, _)| !allowed.contains(value)) {
+        Some((name, value, _, range)) => Err(KeyPointError::Parameter { name, value, range }),
+        None => Ok(()),
+    }
+}
