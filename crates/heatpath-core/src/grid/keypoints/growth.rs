@@ -25,7 +25,7 @@ const BATCH: usize = 4;
 
 impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     pub(super) fn new(search: &'a Search<'m, D>, seeds: &Sources<D>) -> Self {
-        let seed = |&point: &[f64; D]| KeyPoint { point, parent: None, ln_temperature: 0.0 };
+        let seed = |&point: &[f64; D]| KeyPoint { point, parent: None, ln_temperature: None };
         Self {
             search,
             points: seeds.points().iter().map(seed).collect(),
@@ -74,7 +74,10 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             match self.owner(number, branch.point()) {
                 Some(owner) => self.close(number, owner, branch)?,
                 None => match self.twin(number, branch.point()) {
-                    Some(twin) => self.join(number, twin, branch.path, Vec::new()),
+                    Some(twin) => {
+                        let rest = straight(branch.point(), self.points[twin].point);
+                        self.join(number, twin, branch.path, rest);
+                    }
                     None if self.is_full() => {}
                     None => self.add(branch),
                 },
@@ -89,7 +92,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     fn add(&mut self, branch: Branch<D>) {
         let Ending::Source(parent) = branch.path.ending else { return };
         let (from, point) = (self.points.len(), branch.point());
-        let ln_temperature = branch.ln_temperature;
+        let ln_temperature = Some(branch.ln_temperature);
         self.points.push(KeyPoint { point, parent: Some(parent), ln_temperature });
         self.links.push(Link { from, to: parent, path: branch.path });
     }
@@ -107,7 +110,9 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         let near = |&other: &usize| {
             let other = self.points[other].point;
             let cells = cells_between(point, other);
-            cells < 0.5 * self.search.options.radius && self.is_straight_inside(point, other)
+            cells < 0.5 * self.search.options.radius
+                && self.search.medium.mask().segment_is_open(point, other)
+                && self.search.runs_inside(&straight(point, other))
         };
         self.nearest((number + 1..self.points.len()).filter(near), point)
     }
@@ -115,17 +120,6 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     fn nearest(&self, numbers: impl Iterator<Item = usize>, point: [f64; D]) -> Option<usize> {
         let distance = |other: usize| cells_between(self.points[other].point, point);
         numbers.min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-    }
-
-    /// Whether the straight way between two points lies in the structure.
-    fn is_straight_inside(&self, a: [f64; D], b: [f64; D]) -> bool {
-        let steps = (2.0 * cells_between(a, b)).ceil().max(1.0) as usize;
-        let at = |i: usize| {
-            let part = i as f64 / steps as f64;
-            std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))
-        };
-        self.search.medium.mask().segment_is_open(a, b)
-            && (0..=steps).all(|i| self.search.is_inside(at(i)))
     }
 
     /// Joins the key point `number` with the `owner` of a region that its heat has come to, if the
@@ -149,16 +143,10 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     }
 
     /// Links the key points `to` and `from` by a `path` that ends at `to` and a `rest` that begins where
-    /// it begins, or by a straight line from there, unless that way is known.
+    /// it begins, unless that way is known.
     fn join(&mut self, to: usize, from: usize, path: Path<D>, rest: Vec<[f64; D]>) {
         let shape = *self.search.medium.shape();
-        let mut points = rest;
-        points.reverse();
-        points.pop();
-        if points.is_empty() {
-            points.push(self.points[from].point);
-        }
-        points.extend(path.points);
+        let mut points: Vec<[f64; D]> = rest.into_iter().rev().chain(path.points).collect();
         points.dedup();
         let path = polyline(&shape, points, to, path.distance);
         if self.is_new(to, from, &path) {
@@ -231,6 +219,16 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             }
         }
     }
+}
+
+/// The straight way between two points, in steps of half a cell.
+fn straight<const D: usize>(a: [f64; D], b: [f64; D]) -> Vec<[f64; D]> {
+    let steps = (2.0 * cells_between(a, b)).ceil().max(1.0) as usize;
+    let at = |step: usize| {
+        let part = step as f64 / steps as f64;
+        std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))
+    };
+    (0..=steps).map(at).collect()
 }
 
 /// A path along some points to the key point `to`.

@@ -2,17 +2,22 @@
 
 mod circle;
 mod growth;
+mod length;
 mod region;
 mod search;
 mod window;
 
+pub use self::length::{LengthOptions, key_points_by_length};
+
 use self::growth::Growth;
 use self::search::Search;
+use super::distance::EikonalError;
 use super::heat::HeatError;
 use super::medium::Medium;
 use super::path::Path;
 use super::{Grid, PointError, Sources, check_points};
 use crate::exec::{Cancelled, Exec};
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// How warm a peak on a circle must be (epsilon 1 of Algorithm 2), measured by the first circles, those
@@ -62,16 +67,13 @@ impl Default for KeyPointOptions {
         Self {
             radius: 30.0,
             iterations: 50,
-            threshold: Threshold::Speed(0.5),
+            threshold: Threshold::Speed(0.4),
             least_speed_sq: 0.1,
             tips: true,
             most: 10_000,
         }
     }
 }
-
-/// The smallest radius.
-pub const SMALLEST_RADIUS: f64 = 4.0;
 
 /// Why there are no key points.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -92,6 +94,9 @@ pub enum KeyPointError {
     /// Heat cannot flow.
     #[error(transparent)]
     Heat(#[from] HeatError),
+    /// Fast marching is not possible.
+    #[error(transparent)]
+    Eikonal(#[from] EikonalError),
     /// The caller cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -104,8 +109,9 @@ pub struct KeyPoint<const D: usize> {
     pub point: [f64; D],
     /// The number of the key point on whose circle it was found; `None` for seeds.
     pub parent: Option<usize>,
-    /// The logarithm of the temperature there, with heat from the parent; 0 for seeds.
-    pub ln_temperature: f64,
+    /// The logarithm of the temperature there, of heat from the parent; `None` for seeds, and without
+    /// heat.
+    pub ln_temperature: Option<f64>,
 }
 
 /// A piece of curve between two key points.
@@ -174,15 +180,23 @@ fn check(options: &KeyPointOptions) -> Result<(), KeyPointError> {
     let part = match options.threshold {
         Threshold::Temperature(part) | Threshold::Speed(part) => part,
     };
-    let checks = [
-        ("radius", options.radius, SMALLEST_RADIUS..=1e4, "from 4 to 10000 cells"),
-        ("threshold", part, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1"),
-        ("least squared speed", options.least_speed_sq, 0.0..=f64::MAX, "finite and not negative"),
-        ("number of key points", options.most as f64, 1.0..=f64::MAX, "at least 1"),
-        ("number of steps", options.iterations as f64, 1.0..=1e6, "from 1 to 1000000"),
-    ];
-    match checks.into_iter().find(|(_, value, allowed, _)| !allowed.contains(value)) {
-        Some((name, value, _, range)) => Err(KeyPointError::Parameter { name, value, range }),
-        None => Ok(()),
+    check_range("radius", options.radius, 4.0..=1e4, "from 4 to 10000 cells")?;
+    check_range("threshold", part, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1")?;
+    let range = "finite and not negative";
+    check_range("least squared speed", options.least_speed_sq, 0.0..=f64::MAX, range)?;
+    check_range("number of key points", options.most as f64, 1.0..=f64::MAX, "at least 1")?;
+    check_range("number of steps", options.iterations as f64, 1.0..=1e6, "from 1 to 1000000")
+}
+
+fn check_range(
+    name: &'static str,
+    value: f64,
+    allowed: RangeInclusive<f64>,
+    range: &'static str,
+) -> Result<(), KeyPointError> {
+    if allowed.contains(&value) {
+        Ok(())
+    } else {
+        Err(KeyPointError::Parameter { name, value, range })
     }
 }

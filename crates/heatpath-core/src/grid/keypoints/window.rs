@@ -2,7 +2,7 @@
 
 use super::KeyPointError;
 use crate::Exec;
-use crate::grid::distance::{DistanceMap, normalized};
+use crate::grid::distance::{DistanceMap, NOT_REACHED, normalized};
 use crate::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use crate::grid::medium::Medium;
 use crate::grid::path::{Descent, Ending, Path, PathOptions};
@@ -101,9 +101,11 @@ impl<const D: usize> Flow<D> {
         sum / weights
     }
 
-    /// The distance of a point from the key point.
+    /// The distance of a point from the key point, not reached beyond the border.
     pub(super) fn distance(&self, point: [f64; D]) -> f64 {
-        self.distances.at(self.window.inside(point))
+        let inside = self.window.inside(point);
+        let is_on_grid = self.distances.shape().contains(inside);
+        if is_on_grid { self.distances.at(inside) } else { NOT_REACHED }
     }
 
     pub(super) fn descent(&self) -> Option<Descent<'_, D>> {
