@@ -143,10 +143,13 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     }
 
     /// Links the key points `to` and `from` by a `path` that ends at `to` and a `rest` that begins where
-    /// it begins, unless that way is known.
+    /// it begins, unless that way is known. What the two have in common, where the one key point lies
+    /// on the way to the other, is left out.
     fn join(&mut self, to: usize, from: usize, path: Path<D>, rest: Vec<[f64; D]>) {
         let shape = *self.search.medium.shape();
-        let mut points: Vec<[f64; D]> = rest.into_iter().rev().chain(path.points).collect();
+        let (own, other) = parting(&path.points, &rest);
+        let mut points: Vec<[f64; D]> = rest[other..].iter().rev().copied().collect();
+        points.extend(&path.points[own..]);
         points.dedup();
         let path = polyline(&shape, points, to, path.distance);
         if self.is_new(to, from, &path) {
@@ -154,17 +157,22 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         }
     }
 
-    /// Whether a path leads through cells that no other does, or joins what is far apart on all of
-    /// them.
+    /// Whether a path joins what is far apart along all others, or closes a loop hardly larger than a
+    /// circle: then half a radius of it at least is not near any other. (Heat cuts the corner between two
+    /// branches of a fork: that way is no longer than the one along them, and near them.)
     fn is_new(&self, to: usize, from: usize, path: &Path<D>) -> bool {
-        let reach = 4.0 * self.search.options.radius;
+        let radius = self.search.options.radius;
+        let limit = path.length + 3.0 * radius;
+        if self.length_between(to, from, limit) > limit {
+            return true;
+        }
         let near: Vec<&Link<D>> = (self.links.iter())
-            .filter(|link| cells_between(self.points[link.to].point, path.points[0]) < reach)
+            .filter(|link| cells_between(self.points[link.to].point, path.points[0]) < 4.0 * radius)
             .collect();
         let is_known =
-            |point: &[f64; D]| near.iter().any(|link| passes(&link.path.points, *point, APART));
-        let limit = path.length + 2.0 * self.search.options.radius;
-        !path.points.iter().all(is_known) || self.length_between(to, from, limit) > limit
+            |point: [f64; D]| near.iter().any(|link| passes(&link.path.points, point, APART));
+        let steps = path.points.windows(2).filter(|pair| !is_known(pair[0]));
+        steps.map(|pair| cells_between(pair[0], pair[1])).sum::<f64>() > 0.5 * radius
     }
 
     fn are_linked(&self, a: usize, b: usize) -> bool {
@@ -219,6 +227,13 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             }
         }
     }
+}
+
+/// Where two paths from one point part: the numbers of their last points less than two cells apart.
+fn parting<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> (usize, usize) {
+    let beside = |point: [f64; D]| b.iter().rposition(|&other| cells_between(point, other) < 2.0);
+    let last = (0..a.len()).rev().find_map(|own| Some((own, beside(a[own])?)));
+    last.unwrap_or((0, 0))
 }
 
 /// The straight way between two points, in steps of half a cell.

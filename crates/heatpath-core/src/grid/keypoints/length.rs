@@ -10,7 +10,6 @@ use crate::grid::{Sources, check_points};
 
 /// The parameters of [`key_points_by_length`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct LengthOptions {
     /// The length gamma of the paths between key points, in cell units. At least 4; default 30.
     pub length: f64,

@@ -37,7 +37,6 @@ pub enum Threshold {
 
 /// The parameters of [`key_points`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct KeyPointOptions {
     /// The radius r of the circle, or sphere, around a key point, in cell units (multiples of the
     /// smallest spacing). At least 4; default 30, as in the paper.
@@ -67,7 +66,7 @@ impl Default for KeyPointOptions {
         Self {
             radius: 30.0,
             iterations: 50,
-            threshold: Threshold::Speed(0.4),
+            threshold: Threshold::Speed(0.5),
             least_speed_sq: 0.1,
             tips: true,
             most: 10_000,
