@@ -77,7 +77,7 @@ fn assert_found(name: &str, curves: &[Curve<2>], seed: [f64; 2], radius: f64, cl
         let found = find(medium, &[seed], &options(radius));
         let score = score(&found, curves);
         let loops = found.closing().count();
-        println!("{name}, {kind}, radius {radius}: {score:.3?}, {loops} loops");
+        let name = format!("{name}, {kind}, radius {radius}");
         assert_links_hold(&found);
         assert_eq!(found.stop, Stop::Complete);
         assert!(score.recall > 0.97 && score.gap < 6.0, "{name}: {score:?}");
@@ -116,7 +116,7 @@ fn all_branches_of_a_tree_are_found() {
     assert_found("tree", &tree, [150.0, 285.0], 15.0, 0);
 }
 
-/// Four fifths of the temperature are lost over a seventh of a cell.
+/// A fifth of the temperature is lost over a seventh of a cell.
 #[test]
 fn the_threshold_of_the_paper_loses_branches() {
     let tree = tree([150.0, 290.0], PI / 2.0, 85.0, 4.5, 3);

@@ -38,7 +38,7 @@ pub(crate) fn tree(
     half_width: f64,
     forks: u32,
 ) -> Vec<Curve<2>> {
-    let bend = if forks % 2 == 0 { 0.25 } else { -0.25 };
+    let bend = if forks.is_multiple_of(2) { 0.25 } else { -0.25 };
     let at = |s: f64| {
         let along = |part: f64| angle + bend * part;
         let [mut x, mut y] = start;
@@ -135,7 +135,7 @@ pub(crate) fn score<const D: usize>(found: &KeyPoints<D>, curves: &[Curve<D>]) -
     }
     Score {
         recall: hits as f64 / truth.len() as f64,
-        gap: 0.25 * gap as f64,
+        gap: 0.25 * f64::from(gap),
         precision: off.iter().filter(|&&off| off <= 2.0).count() as f64 / off.len() as f64,
         mean: off.iter().sum::<f64>() / off.len() as f64,
     }

@@ -72,11 +72,11 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         self.travel(&visit);
         for branch in visit.peaks {
             match self.owner(number, branch.point()) {
-                Some(owner) => self.close(number, owner, branch)?,
+                Some(owner) => self.close(number, owner, &branch)?,
                 None => match self.twin(number, branch.point()) {
                     Some(twin) => {
                         let rest = straight(branch.point(), self.points[twin].point);
-                        self.join(number, twin, branch.path, rest);
+                        self.join(number, twin, &branch.path, &rest);
                     }
                     None if self.is_full() => {}
                     None => self.add(branch),
@@ -128,7 +128,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         &mut self,
         number: usize,
         owner: usize,
-        branch: Branch<D>,
+        branch: &Branch<D>,
     ) -> Result<(), KeyPointError> {
         if self.are_linked(number, owner) {
             return Ok(());
@@ -137,7 +137,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         let Some(descent) = flow.descent() else { return Ok(()) };
         let Some(path) = flow.path(&descent, branch.point(), owner) else { return Ok(()) };
         if self.search.runs_inside(&path.points) {
-            self.join(number, owner, branch.path, path.points);
+            self.join(number, owner, &branch.path, &path.points);
         }
         Ok(())
     }
@@ -145,9 +145,9 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     /// Links the key points `to` and `from` by a `path` that ends at `to` and a `rest` that begins where
     /// it begins, unless that way is known. What the two have in common, where the one key point lies
     /// on the way to the other, is left out.
-    fn join(&mut self, to: usize, from: usize, path: Path<D>, rest: Vec<[f64; D]>) {
+    fn join(&mut self, to: usize, from: usize, path: &Path<D>, rest: &[[f64; D]]) {
         let shape = *self.search.medium.shape();
-        let (own, other) = parting(&path.points, &rest);
+        let (own, other) = parting(&path.points, rest);
         let mut points: Vec<[f64; D]> = rest[other..].iter().rev().copied().collect();
         points.extend(&path.points[own..]);
         points.dedup();
