@@ -10,6 +10,7 @@ mod eigen;
 mod field;
 pub mod filter;
 pub mod heat;
+pub mod keypoints;
 pub mod labels;
 mod mask;
 pub mod medium;

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test program uses a part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+pub(crate) mod curves;
+
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions, normalized};
 use heatpath_core::grid::heat::{Heat, Implicit, ImplicitOptions};

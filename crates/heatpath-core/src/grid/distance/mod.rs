@@ -6,6 +6,7 @@ pub(super) mod matern;
 mod matrix;
 mod varadhan;
 
+pub(crate) use eikonal::Arrival;
 pub use eikonal::{Eikonal, EikonalError, EikonalOptions, Order};
 pub use heat_method::{HeatMethod, HeatMethodError, HeatMethodOptions};
 pub use matrix::distance_matrix;

@@ -6,6 +6,7 @@
 
 mod combined;
 mod conductivity;
+mod cropped;
 mod edges;
 mod given;
 mod perona_malik;

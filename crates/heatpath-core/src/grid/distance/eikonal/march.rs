@@ -22,7 +22,7 @@ pub(super) struct Front<'a, const D: usize, const N: usize, S> {
 }
 
 /// How often a watch is asked, in cells.
-const REPORT_EVERY: usize = 1 << 15;
+pub(super) const REPORT_EVERY: usize = 1 << 15;
 
 /// The most that a step from a neighbour may cost, over what it costs in the cell, squared. A tenth
 /// more leaves room for smooth media; in mazes and rough media, where T / r is far from smooth, it

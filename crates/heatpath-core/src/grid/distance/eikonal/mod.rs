@@ -3,6 +3,7 @@
 mod axes;
 mod closed;
 mod factor;
+mod growing;
 mod lattice;
 mod march;
 mod queue;
@@ -10,6 +11,8 @@ mod seed;
 mod stencil;
 mod update;
 mod value;
+
+pub(crate) use self::growing::Arrival;
 
 use self::axes::Axes;
 use self::lattice::Lattice;
