@@ -1,6 +1,7 @@
 //! Curves as they are compared: segments, and short elements that each count once.
 
 use super::EvaluationError;
+use crate::grid::skeleton::{Network, smoothed, thin};
 use crate::grid::{Grid, Mask, Shape};
 use std::collections::HashMap;
 
@@ -19,8 +20,7 @@ const FARTHEST: f64 = 1e9;
 #[derive(Clone, Debug)]
 pub struct CurveSet<const D: usize> {
     pub(super) spacing: [f64; D],
-    /// The cells of the grid that the curves come from, if they do.
-    pub(super) size: Option<[usize; D]>,
+    size: Option<[usize; D]>,
     curves: Vec<Vec<Segment<D>>>,
     /// In cell units.
     merge: f64,
@@ -68,17 +68,31 @@ impl<const D: usize> CurveSet<D> {
         Ok(Self { spacing, size: None, curves, merge: Self::MERGE })
     }
 
-    /// The centreline of the cells that are true, of which each is joined to its neighbours.
+    /// The centreline of the cells that are true: [`thin`] finds it, unless they are one already.
+    ///
+    /// Its points are centres of cells, each joined to its neighbours. What a step counts is its length
+    /// after smoothing as in [`Graph`](crate::grid::skeleton::Graph): the steps of the grid alone are up
+    /// to 8 % longer than the line they stand for.
     #[must_use]
     pub fn of_mask(mask: &Grid<bool, D>) -> Self {
-        let shape = mask.shape();
-        let links = links(mask).map(|ends| segment(ends.map(|cell| shape.centre(cell)), shape));
-        Self {
-            spacing: shape.spacing(),
-            size: Some(shape.size()),
-            curves: vec![links.collect()],
-            merge: 0.0,
-        }
+        let shape = *mask.shape();
+        let network = Network::new(&thin(mask));
+        let alone =
+            network.nodes.iter().map(|&cell| vec![segment([shape.centre(cell); 2], &shape)]);
+        let chains = network.chains.iter().map(|chain| {
+            let centres: Vec<_> = chain.cells.iter().map(|&cell| shape.centre(cell)).collect();
+            let lengths = segments(&smoothed(&centres), &shape);
+            let steps = segments(&centres, &shape).into_iter().zip(lengths);
+            steps.map(|(step, smooth)| Segment { length: smooth.length, ..step }).collect()
+        });
+        let curves = chains.chain(alone).collect();
+        Self { spacing: shape.spacing(), size: Some(shape.size()), curves, merge: 0.0 }
+    }
+
+    /// The cells along each axis of the mask that the curves come from, if they do.
+    #[must_use]
+    pub fn size(&self) -> Option<[usize; D]> {
+        self.size
     }
 
     /// The same curves, where a stretch counts only if it is farther than `merge`, in cell units, from
@@ -191,37 +205,4 @@ fn segment<const D: usize>(ends: [[f64; D]; 2], shape: &Shape<D>) -> Segment<D> 
     let physical =
         |point: [f64; D]| std::array::from_fn(|axis| point[axis] * shape.spacing()[axis]);
     Segment { ends: ends.map(physical), length }
-}
-
-/// The pairs of neighbours, by a face, an edge or a corner, among the true cells, and the cells that
-/// have none, paired with themselves. No pair is joined twice: steps over an edge or a corner are left
-/// out where a true cell lies beside them.
-fn links<const D: usize>(mask: &Grid<bool, D>) -> impl Iterator<Item = [usize; 2]> {
-    let shape = *mask.shape();
-    let is_set = |cell: &usize| mask.values()[*cell];
-    (0..shape.cells()).filter(is_set).flat_map(move |cell| {
-        let around = shape.box_around(cell, 1).filter(move |&next| next != cell && is_set(&next));
-        let mut alone = true;
-        let mut links: Vec<[usize; 2]> = Vec::new();
-        for next in around {
-            alone = false;
-            if cell < next && is_direct(mask, cell, next) {
-                links.push([cell, next]);
-            }
-        }
-        if alone {
-            links.push([cell; 2]);
-        }
-        links
-    })
-}
-
-/// Whether no true cell lies in the box that two neighbours span.
-fn is_direct<const D: usize>(mask: &Grid<bool, D>, a: usize, b: usize) -> bool {
-    let (from, to) = (mask.shape().index(a), mask.shape().index(b));
-    (0..1_usize << D).all(|corner| {
-        let index =
-            std::array::from_fn(|axis| if corner >> axis & 1 == 0 { from[axis] } else { to[axis] });
-        index == from || index == to || !mask[index]
-    })
 }

@@ -154,7 +154,7 @@ fn check_grids<const D: usize>(
         let (extracted, truth) = (extracted.spacing.to_vec(), truth.spacing.to_vec());
         return Err(EvaluationError::Spacings { extracted, truth });
     }
-    let sizes = [extracted.size, truth.size, view.map(|view| view.shape().size())];
+    let sizes = [extracted.size(), truth.size(), view.map(|view| view.shape().size())];
     let sizes: Vec<_> = sizes.into_iter().flatten().collect();
     match sizes.windows(2).find(|pair| pair[0] != pair[1]) {
         Some(pair) => {

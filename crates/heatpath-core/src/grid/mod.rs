@@ -16,6 +16,7 @@ pub mod medium;
 pub mod path;
 mod sample;
 mod shape;
+pub mod skeleton;
 mod source;
 mod stencil;
 mod tensor;
