@@ -29,6 +29,8 @@ pub(crate) enum Command {
     Path(PathArgs),
     /// Write the medium alone (k D, the squared speed) to look at what the heat will see.
     Medium(MediumCommandArgs),
+    /// Say how well extracted curves agree with a truth: recall and precision by length.
+    Evaluate(EvaluateArgs),
     /// Say what is in a file: size, type, range.
     Info(InfoArgs),
     /// Print a completion script for a shell.
@@ -71,7 +73,7 @@ pub(crate) struct PathArgs {
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
     pub(crate) method: MethodArgs,
-    /// Where the paths go: .json, .csv or, not for volumes, .svg.
+    /// Where the paths go: .json, .csv, .swc, .vtp or, not for volumes, .svg.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -92,6 +94,43 @@ pub(crate) struct MediumCommandArgs {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct EvaluateArgs {
+    /// The extracted curves: JSON, CSV (with a header line that names x, y and, in volumes, z) or SWC;
+    /// or a mask, of which the centreline is taken.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) extracted: PathBuf,
+    /// The true curves or mask.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) truth: PathBuf,
+    /// Curves agree within this distance, in physical units (repeatable).
+    #[arg(long, value_name = "T", required = true, allow_negative_numbers = true)]
+    pub(crate) tolerance: Vec<f64>,
+    /// The field of view: a picture or volume outside of whose pixels that are not zero nothing
+    /// counts.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mask: Option<PathBuf>,
+    /// The physical size of a pixel: width, height and, in volumes, the distance of slices
+    /// [default: 1 each].
+    #[arg(long, value_name = "SX,SY[,SZ]", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) spacing: Option<Numbers>,
+    /// Write the scores: .json or .csv.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    /// The format of --output [default: as the file's ending].
+    #[arg(long, value_name = "ENDING", help_heading = "Output")]
+    pub(crate) format: Option<String>,
+    /// Print one JSON object on standard output; of several tolerances a list of objects.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Print nothing but errors and what --json asks for.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) quiet: bool,
+    /// Overwrite existing files.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, clap::Args)]

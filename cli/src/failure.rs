@@ -1,5 +1,6 @@
 //! What went wrong, and the exit code for it.
 
+use heatpath_core::evaluation::EvaluationError;
 use heatpath_core::exec::ThreadsError;
 use heatpath_core::grid::distance::{EikonalError, HeatMethodError};
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
@@ -152,6 +153,15 @@ impl From<HeatMethodError> for Failure {
             HeatMethodError::Point(error) => error.into(),
             HeatMethodError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
             HeatMethodError::Tensor => Self::usage(error),
+        }
+    }
+}
+
+impl From<EvaluationError> for Failure {
+    fn from(error: EvaluationError) -> Self {
+        match error {
+            EvaluationError::Tolerance { .. } | EvaluationError::Shape(_) => Self::usage(error),
+            _ => Self::bad_input(error),
         }
     }
 }

@@ -246,7 +246,10 @@ fn form(args: &MediumArgs, usual: Form) -> Form {
 }
 
 /// As many numbers as the input has axes.
-fn coordinates<const D: usize>(option: &str, given: &Numbers) -> Result<[f64; D], Failure> {
+pub(crate) fn coordinates<const D: usize>(
+    option: &str,
+    given: &Numbers,
+) -> Result<[f64; D], Failure> {
     given.0.as_slice().try_into().map_err(|_| {
         let text: Vec<String> = given.0.iter().map(f64::to_string).collect();
         let (numbers, needed) = (text.join(","), AXES[..D].join(","));

@@ -9,6 +9,7 @@ mod args;
 mod completions;
 mod distance;
 mod eikonal;
+mod evaluate;
 mod failure;
 mod heat;
 mod heat_method;
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
         Command::Distance(args) => distance::distance(&args),
         Command::Path(args) => path::path(&args),
         Command::Medium(args) => medium::medium(&args),
+        Command::Evaluate(args) => evaluate::evaluate(&args),
         Command::Info(args) => info::info(&args),
         Command::Completions(args) => completions::completions(&args),
     };

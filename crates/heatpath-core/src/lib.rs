@@ -1,6 +1,7 @@
 //! Geodesic distances and curves on images and volumes by letting heat flow through them.
 #![doc = include_str!("tour.md")]
 
+pub mod evaluation;
 pub mod exec;
 pub mod grid;
 pub mod linear;

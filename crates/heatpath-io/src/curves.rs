@@ -1,8 +1,8 @@
-//! Curves to files: JSON, CSV and SVG.
+//! Curves to files: JSON, CSV, SVG, SWC and VTP.
 
 use crate::output::{check_dimension, known_format, write_atomically};
 use crate::points::AXES;
-use crate::{WriteError, svg};
+use crate::{WriteError, svg, swc, vtp};
 use heatpath_core::grid::Shape;
 use heatpath_core::grid::path::{Ending, Path as Curve};
 use serde::Serialize;
@@ -21,7 +21,7 @@ pub struct Curves<const D: usize> {
 
 impl<const D: usize> Curves<D> {
     /// The endings by which [`write_curves`] chooses a format.
-    pub const ENDINGS: [&'static str; 3] = ["json", "csv", "svg"];
+    pub const ENDINGS: [&'static str; 5] = ["json", "csv", "svg", "swc", "vtp"];
 }
 
 /// Writes curves in the given format, or else in the one that the ending of `path` stands for.
@@ -31,7 +31,9 @@ impl<const D: usize> Curves<D> {
 ///   `path,point,x,y,z,ended`), all counted from 0, with as many digits as are needed to read the
 ///   same numbers back;
 /// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at
-///   0,0), as large as the picture of the given `shape`, to be laid over it.
+///   0,0), as large as the picture of the given `shape`, to be laid over it;
+/// - `.swc`: each path as a tree in physical units, its source the root, the radii 0;
+/// - `.vtp`: polylines in physical units, for VTK and `ParaView`.
 ///
 /// # Errors
 /// The format is unknown or for pictures only, the folder is missing, the file exists and
@@ -48,8 +50,17 @@ pub fn write_curves<const D: usize>(
     write_atomically(path, overwrite, |out| match format {
         "json" => write_json(out, curves),
         "csv" => write_csv(out, curves),
+        "swc" => swc::write_paths(out, points(curves), curves.spacing),
+        "vtp" => {
+            let lines: Vec<_> = points(curves).map(|points| (points, &[][..])).collect();
+            vtp::write(out, &lines, curves.spacing)
+        }
         _ => out.write_all(svg::drawing(curves, shape).as_bytes()),
     })
+}
+
+fn points<const D: usize>(curves: &Curves<D>) -> impl Iterator<Item = &[[f64; D]]> {
+    curves.paths.iter().map(|path| path.points.as_slice())
 }
 
 /// The curves as JSON:

@@ -7,9 +7,11 @@
 //! | in | tensor fields ([`read_tensors`]) | NPY with one more axis |
 //! | in | a picture or a volume, as the file says ([`ImageFile`]) | as these |
 //! | in | points ([`read_points`]) | CSV, JSON |
+//! | in | curves ([`CurveFile`]) | JSON, CSV, SWC |
 //! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
 //! | out | fields ([`write_field`]) | NPY, TIFF, PNG |
-//! | out | curves ([`write_curves`]) | JSON, CSV, SVG |
+//! | out | curves ([`write_curves`]) | JSON, CSV, SVG, SWC, VTP |
+//! | out | skeleton graphs ([`write_graph`]) | JSON, CSV, SWC, VTP |
 //! | out | a result on its picture ([`write_overlay`]) | PNG |
 //!
 //! PNG and SVG are for pictures only; all else is the same in two and three dimensions.
@@ -40,21 +42,26 @@ pub mod curves;
 mod decode;
 mod error;
 pub mod field;
+pub mod graph;
 mod info;
 mod legend;
 pub mod output;
 pub mod overlay;
 pub mod picture;
 mod points;
+mod polylines;
 mod sample;
 mod svg;
+mod swc;
 mod text;
+mod vtp;
 
 pub use colour::colour_map;
 pub use curves::{Curves, curves_json, write_curves};
 pub use decode::Format;
 pub use error::{ReadError, WriteError};
 pub use field::{FieldFormat, FieldStyle, write_field};
+pub use graph::{graph_json, write_graph};
 pub use info::{Info, info};
 pub use output::{check_dimension, check_output, write_atomically};
 pub use overlay::{Overlay, write_overlay};
@@ -62,4 +69,5 @@ pub use picture::{
     Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture, read_tensors,
 };
 pub use points::{read_points, read_points_from_bytes};
+pub use polylines::CurveFile;
 pub use sample::SampleType;

@@ -10,7 +10,7 @@ use std::path::Path;
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Why an entry is no point, and where it stands.
-type Trouble = (String, String);
+pub(crate) type Trouble = (String, String);
 
 /// Reads points in pixel coordinates.
 ///
@@ -165,7 +165,7 @@ fn csv_point<const D: usize>(
     Ok(point)
 }
 
-fn number(cell: &[u8]) -> Option<f64> {
+pub(crate) fn number(cell: &[u8]) -> Option<f64> {
     str::from_utf8(cell).ok()?.parse().ok()
 }
 
@@ -175,7 +175,7 @@ fn text(record: &ByteRecord) -> String {
 }
 
 /// The beginning of a text that may be long, on one line.
-fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     let line = text.replace(char::is_control, " ");
     match line.char_indices().nth(40) {
         None => line,

@@ -26,6 +26,12 @@ impl<const D: usize> Mask<D> {
         Self { open: self.open.with_spacing_of(shape) }
     }
 
+    /// Whether each cell is open.
+    #[must_use]
+    pub fn open(&self) -> &Grid<bool, D> {
+        &self.open
+    }
+
     /// The size and spacing.
     #[must_use]
     pub fn shape(&self) -> &Shape<D> {

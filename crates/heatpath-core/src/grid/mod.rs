@@ -18,6 +18,7 @@ pub mod path;
 mod sample;
 mod seeds;
 mod shape;
+pub mod skeleton;
 mod source;
 mod stencil;
 mod tensor;

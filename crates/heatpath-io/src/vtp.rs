@@ -1,0 +1,60 @@
+//! Polylines for VTK.
+
+use std::io::{self, Write};
+
+/// Writes polylines, given in pixel coordinates with a radius for each point or none at all, as VTK
+/// XML poly data in text, in physical units.
+pub(crate) fn write<const D: usize>(
+    out: &mut dyn Write,
+    lines: &[(&[[f64; D]], &[f64])],
+    spacing: [f64; D],
+) -> io::Result<()> {
+    let points: usize = lines.iter().map(|(points, _)| points.len()).sum();
+    let has_radii = lines.iter().any(|(_, radii)| !radii.is_empty());
+    writeln!(out, "<?xml version=\"1.0\"?>")?;
+    writeln!(out, "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">")?;
+    let count = lines.len();
+    writeln!(out, "<PolyData><Piece NumberOfPoints=\"{points}\" NumberOfLines=\"{count}\">")?;
+    if has_radii {
+        writeln!(out, "<PointData Scalars=\"radius\">")?;
+        let radii = lines.iter().flat_map(|(_, radii)| radii.iter());
+        array(out, "Float64", "radius", 1, radii.map(|&radius| known(radius)))?;
+        writeln!(out, "</PointData>")?;
+    }
+    writeln!(out, "<Points>")?;
+    let coordinates = lines.iter().flat_map(|(points, _)| points.iter());
+    array(out, "Float64", "points", 3, coordinates.flat_map(|&point| physical(point, spacing)))?;
+    writeln!(out, "</Points><Lines>")?;
+    array(out, "Int64", "connectivity", 1, 0..points)?;
+    let ends = lines.iter().scan(0, |end, (points, _)| {
+        *end += points.len();
+        Some(*end)
+    });
+    array(out, "Int64", "offsets", 1, ends)?;
+    writeln!(out, "</Lines></Piece></PolyData></VTKFile>")
+}
+
+fn array(
+    out: &mut dyn Write,
+    kind: &str,
+    name: &str,
+    components: usize,
+    values: impl Iterator<Item = impl std::fmt::Display>,
+) -> io::Result<()> {
+    write!(out, "<DataArray type=\"{kind}\" Name=\"{name}\" ")?;
+    writeln!(out, "NumberOfComponents=\"{components}\" format=\"ascii\">")?;
+    for value in values {
+        write!(out, "{value} ")?;
+    }
+    writeln!(out, "\n</DataArray>")
+}
+
+/// A point in the world, in which pictures lie at z = 0.
+pub(crate) fn physical<const D: usize>(point: [f64; D], spacing: [f64; D]) -> [f64; 3] {
+    std::array::from_fn(|axis| if axis < D { point[axis] * spacing[axis] } else { 0.0 })
+}
+
+/// A radius, or 0 where it is not known.
+pub(crate) fn known(radius: f64) -> f64 {
+    if radius.is_finite() { radius } else { 0.0 }
+}
