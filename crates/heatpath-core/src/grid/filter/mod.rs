@@ -5,6 +5,7 @@
 //! the unit of length. Images are mirrored about their borders, `-0.5` and `size - 0.5`.
 
 mod contrast;
+mod elongated;
 mod flux;
 mod hessian;
 mod kernel;
@@ -17,7 +18,7 @@ pub use contrast::normalize_contrast;
 pub use hessian::hessian;
 pub use measure::{Measure, Polarity};
 pub use structure::{gaussian_gradient, structure_tensor};
-pub use vesselness::{LARGEST_SCALE, Tubes, Vesselness, vesselness};
+pub use vesselness::{LARGEST_ELONGATION, LARGEST_SCALE, Tubes, Vesselness, vesselness};
 
 pub(super) use measure::rise;
 
