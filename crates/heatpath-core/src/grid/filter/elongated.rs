@@ -126,7 +126,7 @@ impl<const D: usize> Lines<D> {
             let row = (slab * pairs::<D>().len() + component) * rows + row;
             let start = row * (width + 2 * self.margin) + self.margin;
             let weight = if across(i) == across(j) { weight } else { -weight };
-            (weight, start.strict_add_signed(offset[0]))
+            (weight, (start as isize + offset[0]) as usize)
         }));
     }
 }
