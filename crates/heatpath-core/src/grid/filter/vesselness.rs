@@ -57,7 +57,7 @@ pub struct Tubes {
     /// [normalised contrast](super::normalize_contrast), Sato's measure at 1.5, 3 and 5, thresholds
     /// with hysteresis) the skeleton has a recall and precision within 3 pixels of 0.70 and 0.84 at an
     /// elongation of 1, 0.74 and 0.84 at 2, 0.77 and 0.82 at 3, 0.78 and 0.81 at 4. A picture takes
-    /// about five times as long at 3 as at 1.
+    /// about ten times as long at 3 as at 1.
     pub elongation: f64,
     /// What counts as a strong tube: the c of Frangi's measure, for the others the strength whose
     /// response is 1. Positive; `None`, the default, takes half the largest norm of a Hessian over all cells and
