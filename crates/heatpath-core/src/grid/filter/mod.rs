@@ -4,6 +4,8 @@
 //! derivatives are per cell unit, so that filters are round in physical space and do not depend on
 //! the unit of length. Images are mirrored about their borders, `-0.5` and `size - 0.5`.
 
+mod contrast;
+mod elongated;
 mod flux;
 mod hessian;
 mod kernel;
@@ -12,10 +14,11 @@ mod separable;
 mod structure;
 mod vesselness;
 
+pub use contrast::normalize_contrast;
 pub use hessian::hessian;
 pub use measure::{Measure, Polarity};
 pub use structure::{gaussian_gradient, structure_tensor};
-pub use vesselness::{LARGEST_SCALE, Tubes, Vesselness, vesselness};
+pub use vesselness::{LARGEST_ELONGATION, LARGEST_SCALE, Tubes, Vesselness, vesselness};
 
 pub(super) use measure::rise;
 
@@ -51,6 +54,14 @@ pub enum FilterError {
         value: f64,
         /// What would be right.
         range: &'static str,
+    },
+    /// The mask is for another grid.
+    #[error("the mask has {mask:?} cells but the image has {image:?}")]
+    MaskSize {
+        /// The mask's cells along each axis.
+        mask: Vec<usize>,
+        /// The image's cells along each axis.
+        image: Vec<usize>,
     },
     /// The caller asked to stop.
     #[error(transparent)]

@@ -1,5 +1,6 @@
 //! Tubes of several widths.
 
+use super::elongated::{Frame, Lines};
 use super::flux::{HAT_VARIANCE, ball_over_sphere};
 use super::measure::{Measure, Polarity};
 use super::separable::{Derivatives, Scratch, for_each_slab, second_orders, slab_cells};
@@ -11,6 +12,9 @@ use std::ops::Range;
 
 /// The largest scale of [`Tubes`], in cells: wider ones are found sooner in a smaller image.
 pub const LARGEST_SCALE: f64 = 100.0;
+
+/// The largest elongation of [`Tubes`].
+pub const LARGEST_ELONGATION: f64 = 10.0;
 
 /// Which tubes [`vesselness`] looks for, and how.
 ///
@@ -38,6 +42,23 @@ pub struct Tubes {
     /// in a volume, at `sigma = r / sqrt(2)`, and both at a flux of radius r to `r + 1`. Default
     /// 2, 3 and 4.5.
     pub scales: Vec<f64>,
+    /// How much longer than wide the Gaussian is, from 1 to [`LARGEST_ELONGATION`]; default 1, as
+    /// wide as long.
+    ///
+    /// Above 1 the second derivatives are averaged along a line by a Gaussian of variance
+    /// `(elongation^2 - 1) sigma^2` (for the flux of a radius instead of `sigma`), and the measure is
+    /// taken of the eigenvalues across the line and the value along it; the largest response of all
+    /// directions counts, 12 in a picture and 49 in a volume. A straight tube along one of them
+    /// responds as before, noise and blobs less, and gaps are bridged, but bends and ends suffer.
+    /// Between two directions the response falls: at an elongation of 3 to 0.86 in a picture, at
+    /// 7.5 degrees, for a ribbon at its own scale.
+    ///
+    /// 3 is a good choice for vessels in noise. At the retina (4 pictures of `CHASE_DB1` of
+    /// [normalised contrast](super::normalize_contrast), Sato's measure at 1.5, 3 and 5, thresholds
+    /// with hysteresis) the skeleton has a recall and precision within 3 pixels of 0.70 and 0.84 at an
+    /// elongation of 1, 0.74 and 0.84 at 2, 0.77 and 0.82 at 3, 0.78 and 0.81 at 4. A picture takes
+    /// about ten times as long at 3 as at 1.
+    pub elongation: f64,
     /// What counts as a strong tube: the c of Frangi's measure, for the others the strength whose
     /// response is 1. Positive; `None`, the default, takes half the largest norm of a Hessian over all cells and
     /// scales for c, as Frangi et al. do, and the largest strength for the others, so that the
@@ -54,6 +75,7 @@ impl Default for Tubes {
             measure: Measure::Sato,
             polarity: Polarity::default(),
             scales: vec![2.0, 3.0, 4.5],
+            elongation: 1.0,
             contrast: None,
         }
     }
@@ -117,6 +139,10 @@ impl Tubes {
         if let Some(&value) = self.scales.iter().find(|s| !(**s > 0.0 && **s <= LARGEST_SCALE)) {
             return Err(FilterError::Parameter { name: "scale", value, range });
         }
+        if !(1.0..=LARGEST_ELONGATION).contains(&self.elongation) {
+            let (name, value, range) = ("elongation", self.elongation, "from 1 to 10");
+            return Err(FilterError::Parameter { name, value, range });
+        }
         if self.scales.is_empty() {
             let (name, value) = ("number of scales", 0.0);
             return Err(FilterError::Parameter { name, value, range: "at least 1" });
@@ -161,16 +187,29 @@ impl<const D: usize> Search<'_, D> {
             let scales = best.scale.values_mut().chunks_mut(slab_cells(shape));
             let directions = best.direction.values_mut().chunks_mut(slab_cells(shape));
             let parts = responses.zip(scales).zip(directions);
-            layer.visit(parts, self.exec, |((responses, scales), directions), cell, matrix| {
-                if norm(matrix) <= self.quiet {
-                    return;
-                }
-                let (response, direction) = self.strength(matrix, contrast);
+            let keep = |part: &mut Part<'_, D>, cell, (response, direction)| {
+                let ((responses, scales), directions) = part;
                 if response > responses[cell] {
                     (responses[cell], scales[cell]) = (response, scale);
                     directions[cell] = direction;
                 }
-            })?;
+            };
+            if self.tubes.elongation > 1.0 {
+                let lines = layer.lines([scale, self.tubes.elongation], self.exec)?;
+                let share = layer.middle()..layer.share.end;
+                lines.visit(parts, (share, self.exec), |part, cell, matrix, frame| {
+                    let response = self.strength_along(frame, matrix, contrast);
+                    if response > part.0.0[cell] && norm(matrix) > self.quiet {
+                        keep(part, cell, (response, frame.along));
+                    }
+                })?;
+            } else {
+                layer.visit(parts, self.exec, |part, cell, matrix| {
+                    if norm(matrix) > self.quiet {
+                        keep(part, cell, self.strength(matrix, contrast));
+                    }
+                })?;
+            }
         }
         self.exec.report(1.0)?;
         Ok(best)
@@ -189,6 +228,18 @@ impl<const D: usize> Search<'_, D> {
                 let (bright, dark) = (bright(), dark());
                 if bright.0 >= dark.0 { bright } else { dark }
             }
+        }
+    }
+
+    /// The strength of a tube along a given direction.
+    fn strength_along(&self, frame: &Frame<D>, matrix: &Matrix<D>, contrast: f64) -> f64 {
+        let strength =
+            |matrix: &Matrix<D>| self.tubes.measure.strength(frame.values(matrix), contrast);
+        let dark = || strength(&matrix.map(|row| row.map(|entry| -entry)));
+        match self.tubes.polarity {
+            Polarity::Bright => strength(matrix),
+            Polarity::Dark => dark(),
+            Polarity::Both => strength(matrix).max(dark()),
         }
     }
 
@@ -223,6 +274,9 @@ impl<const D: usize> Search<'_, D> {
     }
 }
 
+/// Responses, scales and directions of one slab.
+type Part<'a, const D: usize> = ((&'a mut [f64], &'a mut [f64]), &'a mut [[f64; D]]);
+
 /// One scale.
 struct Layer<'a, const D: usize> {
     image: Cow<'a, Grid<f64, D>>,
@@ -255,6 +309,16 @@ impl<const D: usize> Layer<'_, D> {
                 }
             },
         )
+    }
+
+    /// The second derivatives, to be averaged along lines, which is half of the work.
+    fn lines(&self, [scale, elongation]: [f64; 2], exec: &Exec) -> Result<Lines<D>, Cancelled> {
+        let progress = (self.share.start..self.middle(), exec);
+        Lines::new(&self.image, &self.derivatives, [self.factor, scale, elongation], progress)
+    }
+
+    fn middle(&self) -> f64 {
+        0.5 * (self.share.start + self.share.end)
     }
 
     /// The second derivatives of one slab.

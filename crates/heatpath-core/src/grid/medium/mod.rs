@@ -147,6 +147,7 @@ impl From<FilterError> for MediumError {
             FilterError::NotFinite(error) => error.into(),
             FilterError::Sigma(error) => error.into(),
             FilterError::Parameter { name, value, range } => Self::Parameter { name, value, range },
+            FilterError::MaskSize { mask, image } => Self::MaskSize { mask, image },
             FilterError::Cancelled(error) => error.into(),
         }
     }
