@@ -174,12 +174,17 @@ pub(crate) struct PictureArgs {
         help_heading = "Picture"
     )]
     pub(crate) spacing: Option<Numbers>,
-    /// Read points and --smooth in physical units (--spacing) instead of pixels.
+    /// Read points, --smooth, --scale and --normalize in physical units (--spacing) instead of pixels.
     #[arg(long, help_heading = "Picture")]
     pub(crate) physical: bool,
     /// A picture or volume of the same size whose zeros are walls.
     #[arg(long, value_name = "FILE", help_heading = "Picture")]
     pub(crate) mask: Option<PathBuf>,
+    /// Make the contrast the same everywhere inside --mask: each grey value becomes how far it is
+    /// from the mean around it, in multiples of the deviation there, about -3 to 3. Both are averaged by a
+    /// Gaussian of this standard deviation, in pixels; 15 did well at the retina.
+    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, help_heading = "Picture")]
+    pub(crate) normalize: Option<f64>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -262,6 +267,10 @@ pub(crate) struct MediumArgs {
         help_heading = "Medium"
     )]
     pub(crate) scale: Vec<f64>,
+    /// How much longer than wide the Gaussian of the vesselness is, in many directions of which the
+    /// best counts, 1 to 10: above 1 there is less noise between tubes [default: 1].
+    #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) elongation: Option<f64>,
     /// Which tubes Hessian and vesselness look for [default: both; vesselness: bright].
     #[arg(long, help_heading = "Medium")]
     pub(crate) polarity: Option<PolarityArg>,

@@ -6,9 +6,9 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use heatpath_core::Exec;
-use heatpath_core::grid::filter::{Polarity, Tubes};
+use heatpath_core::grid::filter::{Polarity, Tubes, normalize_contrast};
 use heatpath_core::grid::medium::{
-    self, ConductivityOptions, Directions, EdgeStop, EdgesOptions, Form, Medium,
+    self, ConductivityOptions, Directions, EdgeStop, EdgesOptions, Form, Medium, MediumError,
     PeronaMalikOptions, TensorOptions, VesselnessOptions,
 };
 use heatpath_core::grid::{Grid, Mask, Shape, check_points};
@@ -69,7 +69,13 @@ impl<'a, const D: usize> Picture<'a, D> {
             None => Mask::all_open(*image.shape()),
         };
         check_size(args.mask.as_deref(), mask.shape(), image.shape())?;
-        Ok(Self { args, image, mask })
+        let mut picture = Self { args, image, mask };
+        if let Some(sigma) = args.normalize {
+            let (sigma, exec) = (picture.smoothing(sigma), Exec::single_threaded());
+            picture.image = normalize_contrast(&picture.image, sigma, &picture.mask, &exec)
+                .map_err(MediumError::from)?;
+        }
+        Ok(picture)
     }
 
     /// The points given one by one and in a file, in pixel coordinates, checked.
@@ -182,6 +188,7 @@ impl<'a, const D: usize> Picture<'a, D> {
             anisotropy: args.anisotropy.unwrap_or(usual.anisotropy),
             tubes: Tubes {
                 polarity: polarity(args).unwrap_or(usual.tubes.polarity),
+                elongation: args.elongation.unwrap_or(usual.tubes.elongation),
                 scales: if scales.is_empty() { usual.tubes.scales } else { scales },
                 ..usual.tubes
             },
@@ -222,7 +229,7 @@ impl<'a, const D: usize> Picture<'a, D> {
         }
     }
 
-    /// --smooth and --scale in cells.
+    /// --smooth, --scale and --normalize in cells.
     fn smoothing(&self, sigma: f64) -> f64 {
         let unit = if self.args.physical { self.image.shape().smallest_spacing() } else { 1.0 };
         sigma / unit

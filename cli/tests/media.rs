@@ -39,6 +39,55 @@ fn tubes_are_found_and_followed() {
 }
 
 #[test]
+fn contrast_is_made_the_same_everywhere() {
+    let bench = Bench::new();
+    let line = |bright: fn(f64) -> f64, name: &str| {
+        bench.write_npy(name, &[60, 120], |cell| {
+            let (x, y) = ((cell % 120) as f64, (cell / 120) as f64);
+            bright(x) * (-(y - 30.0).powi(2) / 8.0).exp() + 0.01 * (x + y).sin()
+        });
+    };
+    line(|_| 1.0, "even.npy");
+    line(|x| (-x / 50.0).exp(), "fading.npy");
+    let faint = |file: &str, options: &str| {
+        bench.json(&format!("medium {file} --medium vesselness {options} -o m.npy --force --json"));
+        let values = bench.npy("m.npy").1;
+        values[30 * 120 + 110] / values[30 * 120 + 10]
+    };
+    assert!(faint("fading.npy", "") < 0.1);
+    assert!(faint("fading.npy", "--normalize 8") > 0.5);
+    assert!(faint("fading.npy", "--normalize 8 --spacing 0.5,0.5") > 0.5);
+    let physical = "--normalize 4 --scale 1,1.5,2.25 --physical --spacing 0.5,0.5";
+    let (pixels, physical) = (faint("fading.npy", "--normalize 8"), faint("fading.npy", physical));
+    assert!((pixels - physical).abs() < 1e-12);
+    assert!((faint("even.npy", "--normalize 8") - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn long_tubes_leave_less_noise() {
+    let bench = Bench::new();
+    bench.write_npy("noisy.npy", &[80, 100], |cell| {
+        let (x, y) = ((cell % 100) as f64, (cell / 100) as f64);
+        let noise = (12.9898 * x + 78.233 * y).sin() * 43758.5453;
+        (-(y - 40.0).powi(2) / 8.0).exp() + 0.8 * (noise - noise.floor())
+    });
+    // The mean on the line over what one in a hundred is above far from it.
+    let contrast = |options: &str| {
+        bench.json(&format!(
+            "medium noisy.npy --medium vesselness {options} -o m.npy --force --json"
+        ));
+        let values = bench.npy("m.npy").1;
+        let far = values.iter().enumerate().filter(|(cell, _)| (cell / 100).abs_diff(40) > 12);
+        let mut far: Vec<f64> = far.map(|(_, value)| *value).collect();
+        far.sort_by(f64::total_cmp);
+        values[4000..4100].iter().sum::<f64>() / 100.0 / far[far.len() * 99 / 100]
+    };
+    let plain = contrast("");
+    assert_eq!(contrast("--elongation 1"), plain);
+    assert!(contrast("--elongation 3") > 1.5 * plain, "{} {plain}", contrast("--elongation 3"));
+}
+
+#[test]
 fn heat_runs_along_directions() {
     let bench = Bench::new();
     line(&bench);
@@ -86,4 +135,6 @@ fn what_does_not_go_together_is_refused() {
     bench.fails(&format!("{medium} tensor --anisotropy 1"), 2, &["anisotropy", "0.9998"]);
     bench.fails(&format!("{medium} tensor --scale 1,2"), 2, &["--scale", "one number"]);
     bench.fails(&format!("{medium} vesselness --scale -1"), 2, &["-1"]);
+    bench.fails(&format!("{medium} vesselness --elongation 0.5"), 2, &["elongation", "1 to 10"]);
+    bench.fails(&format!("{medium} uniform --normalize 0"), 2, &["sigma", "positive"]);
 }

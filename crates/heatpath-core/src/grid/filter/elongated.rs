@@ -17,7 +17,8 @@ const BLOCK: usize = 32;
 const IN_PLANE: [[f64; 3]; 4] =
     [[1.0, 0.0, 0.0], [1.0, 2.0 - SQRT_3, 0.0], [1.0, SQRT_3 / 3.0, 0.0], [1.0, 1.0, 0.0]];
 
-/// The same in space: 49 directions, of all cells up to two away along each axis.
+/// The same in space: 49 directions, of all cells up to two away along each axis. Any
+/// other is within 17.7 degrees of one of them.
 const IN_SPACE: [[f64; 3]; 6] = [
     [1.0, 0.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -273,7 +274,10 @@ mod tests {
             let radius = (1.0 - height * height).sqrt();
             [radius * turn.cos(), radius * turn.sin(), height]
         });
+        // In the middle of the triangle of (1, 0, 0), (2, 1, 0) and (2, 1, 1).
+        let (y, z) = (5.0_f64.sqrt() - 2.0, 6.0_f64.sqrt() - 5.0_f64.sqrt());
+        let expected = (y * y + z * z).sqrt().atan().to_degrees();
         let farthest = farthest::<3>(sphere);
-        assert!(farthest < 14.0, "{farthest}");
+        assert!((farthest - expected).abs() < 0.2, "{farthest} {expected}");
     }
 }
