@@ -117,7 +117,7 @@ pub enum VotingError {
 /// let image = Grid::from_fn(Shape::new([80, 60])?, |index| f64::from(u8::from(is_cross(index))));
 /// let medium = medium::conductivity(&image, &[1.0], Default::default())?;
 /// let sources = Sources::new(&[[40.0, 50.0]], medium.mask())?;
-/// let growth = Some(Growth { least_speed_sq: 0.5, gap: 3.0 });
+/// let growth = Some(Growth::new(0.5));
 /// let options = VotingOptions { growth, ..VotingOptions::default() };
 /// let votes = vote(&medium, &sources, &options, &Exec::single_threaded())?;
 /// assert!(votes.kept[[40, 20]] && votes.kept[[20, 30]] && !votes.kept[[20, 20]]);

@@ -28,7 +28,7 @@ pub struct VotingOptions {
     pub steps: Option<usize>,
     /// Cells are kept whose density is above this part of the largest one of the same round. From 0
     /// to below 1; `None`, the default, takes the paper's: 1/30 for the front, 1/7 for the other two,
-    /// which trace fewer paths a round.
+    /// which trace fewer paths a round. With [`Growth`] [`Growth::least_votes`] applies instead.
     pub threshold: Option<f64>,
     /// How far below the highest temperature heat still [covers](super::covered) a cell, in
     /// logarithms. Positive; `None`, the default, takes 36 for [`Method::Accumulated`] and 240 for
@@ -54,16 +54,18 @@ pub struct VotingOptions {
     /// because cells that were kept before win again and few are new, the second rule.
     pub level: Option<f64>,
     /// Voting stops when more than this share of the open cells is kept (Algorithm 1). From 0 to 1;
-    /// default 1/30.
+    /// default 1/30. Does not apply with [`Growth`], which knows where the structure ends: the centre
+    /// lines of a retina are that share of its picture.
     pub largest_share: f64,
     /// Voting stops when more than this share of the kept cells was kept before (Algorithm 1).
     /// From 0 to 1; default 0.95.
     pub settled_share: f64,
     /// The most rounds, at least 1; default 100. The front has one.
     pub rounds: usize,
-    /// How paths are counted; default [`Counting::Traced`].
-    pub counting: Counting,
-    /// Where votes end; `None`, the default, is the paper's way: at the front.
+    /// How paths are counted; `None`, the default, takes [`Counting::Flow`] with [`Growth`], which
+    /// has many ends, and [`Counting::Traced`] without it.
+    pub counting: Option<Counting>,
+    /// Whether the structure votes; `None`, the default, is the paper's way: the front does.
     pub growth: Option<Growth>,
 }
 
@@ -77,7 +79,7 @@ impl Default for VotingOptions {
             largest_share: 1.0 / 30.0,
             settled_share: 0.95,
             rounds: 100,
-            counting: Counting::default(),
+            counting: None,
             growth: None,
         }
     }
@@ -108,6 +110,17 @@ impl VotingOptions {
 
     pub(super) fn threshold(&self) -> f64 {
         self.threshold.unwrap_or(if self.method == Method::Front { 1.0 / 30.0 } else { 1.0 / 7.0 })
+    }
+
+    /// The density above which a cell is kept in a round with this largest density.
+    pub(super) fn least_votes(&self, largest_density: u32) -> f64 {
+        let share = self.threshold() * f64::from(largest_density);
+        self.growth.map_or(share, |growth| f64::from(growth.least_votes))
+    }
+
+    pub(super) fn counting(&self) -> Counting {
+        let usual = if self.growth.is_some() { Counting::Flow } else { Counting::Traced };
+        self.counting.unwrap_or(usual)
     }
 
     pub(super) fn most_rounds(&self) -> usize {
