@@ -168,10 +168,8 @@ impl<const D: usize> Piece<D> {
             self.fastest = cell;
         }
         let index = medium.shape().index(cell);
-        for axis in 0..D {
-            self.low[axis] = self.low[axis].min(index[axis]);
-            self.high[axis] = self.high[axis].max(index[axis]);
-        }
+        self.low = std::array::from_fn(|axis| self.low[axis].min(index[axis]));
+        self.high = std::array::from_fn(|axis| self.high[axis].max(index[axis]));
     }
 
     /// The diagonal of the box around it, in cell units.

@@ -93,8 +93,15 @@ impl<'a, const D: usize> Tally<'a, D> {
     /// How far voting is on its way to the end that is in sight.
     pub(super) fn finished(&self, options: &VotingOptions) -> f64 {
         let Some(round) = self.rounds.last() else { return 0.0 };
+        let most_ends = self.rounds.iter().map(|round| round.ends).max().unwrap_or(0);
         let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
-        let share = round.kept as f64 / (options.largest_share * self.open as f64);
+        let share = match options.growth {
+            Some(growth) => {
+                let structure = growth.cells(self.medium.mask().open_cells(), self.medium);
+                most_ends as f64 / structure.len() as f64
+            }
+            None => round.kept as f64 / (options.largest_share * self.open as f64),
+        };
         rounds.max(share).min(1.0)
     }
 
