@@ -1,8 +1,9 @@
 //! Paths along an observer's vessels of the retina, by every medium and readout: tables in Markdown.
 //!
-//! `cargo run --release -p heatpath-benches --bin paths -- DATA`, where the folder DATA holds
-//! `retina_chase` and `retina_stare`, each with `images`, `centerline` and `fov_png`. What is measured
-//! and what comes out stands in `docs/extraction.md`.
+//! `cargo run --release -p heatpath-benches --bin paths -- DATA [MEDIUM] [SOURCES]`, where the folder
+//! DATA holds `retina_chase` and `retina_stare`, each with `images`, `centerline` and `fov_png`. Rows
+//! are those whose medium's name begins with MEDIUM, by default all; SOURCES is the largest number of
+//! sources in a picture. What is measured and what comes out stands in `docs/extraction.md`.
 #![allow(clippy::print_stdout, reason = "the tables are what this program is for")]
 
 mod data;
@@ -34,12 +35,17 @@ const STRAIGHTNESS: f64 = 0.7;
 
 fn main() -> Result<(), Failure> {
     let data = PathBuf::from(env::args().nth(1).ok_or("the data's folder is missing")?);
+    let medium = env::args().nth(2).unwrap_or_default();
+    let most = env::args().nth(3).map_or(Ok(usize::MAX), |count| count.parse())?;
+    let mut rows = methods::all();
+    rows.retain(|(kind, _)| kind.name().starts_with(&medium));
     for set in SETS {
         let names = set.names(&data)?;
         for (length, sources) in LENGTHS {
-            let parts =
-                in_parallel(&names, |name| of_picture(&set.read(&data, name)?, length, sources))?;
-            print_table(&set, length, &parts);
+            let parts = in_parallel(&names, |name| {
+                of_picture(&set.read(&data, name)?, length, sources.min(most), &rows)
+            })?;
+            print_table(&set, length, &rows, &parts);
         }
     }
     Ok(())
@@ -73,11 +79,15 @@ fn in_parallel(
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-fn of_picture(picture: &Picture, length: f64, sources: usize) -> Result<Part, Failure> {
+fn of_picture(
+    picture: &Picture,
+    length: f64,
+    sources: usize,
+    rows: &[(Kind, Readout)],
+) -> Result<Part, Failure> {
     let ways = ways(&picture.centrelines, length, sources, STRAIGHTNESS);
     let exec = Exec::single_threaded();
-    let rows = methods::all().into_iter();
-    let tallies = rows.map(|(kind, readout)| tally(picture, &ways, kind, readout, &exec));
+    let tallies = rows.iter().map(|&(kind, readout)| tally(picture, &ways, kind, readout, &exec));
     Ok((picture.chosen_by, tallies.collect::<Result<_, _>>()?))
 }
 
@@ -155,7 +165,7 @@ impl Tally {
     }
 }
 
-fn print_table(set: &DataSet, length: f64, parts: &[Part]) {
+fn print_table(set: &DataSet, length: f64, rows: &[(Kind, Readout)], parts: &[Part]) {
     let of_row = |row: usize, half: Option<bool>| {
         let counts = move |part: &&Part| half.is_none_or(|half| part.0 == half);
         Tally::sum(parts.iter().filter(counts).map(|part| &part.1[row]))
@@ -164,7 +174,7 @@ fn print_table(set: &DataSet, length: f64, parts: &[Part]) {
     println!("\n{}, {length} pixels, {} pictures, {paths} paths\n", set.name, parts.len());
     println!("| medium | readout | 1 px | 2 px | 3 px | 2 px, chosen by | 2 px, others | ms |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
-    for (row, (kind, readout)) in methods::all().into_iter().enumerate() {
+    for (row, (kind, readout)) in rows.iter().enumerate() {
         let all = of_row(row, None);
         let halves = [true, false].map(|half| of_row(row, Some(half)).scores(1));
         let scores = [0, 1, 2].map(|tolerance| all.scores(tolerance)).join(" | ");
