@@ -221,6 +221,13 @@ pub(crate) struct Traced {
 }
 
 impl Traced {
+    /// The ends alone, from which no path comes.
+    pub(crate) fn none(ways: &[Ways]) -> Self {
+        let truths = ways.iter().flat_map(|ways| &ways.truths);
+        let paths: Vec<_> = truths.map(|truth| vec![truth[0]]).collect();
+        Self { lost: paths.len(), paths }
+    }
+
     fn by_heat(
         &mut self,
         medium: &Medium<2>,
