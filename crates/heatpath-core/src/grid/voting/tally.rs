@@ -97,7 +97,7 @@ impl<'a, const D: usize> Tally<'a, D> {
         let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
         let share = match options.growth {
             Some(growth) => {
-                let structure = growth.cells(self.medium.mask().open_cells(), self.medium);
+                let structure = growth.cells(self.medium.mask().open(), self.medium);
                 most_ends as f64 / structure.len() as f64
             }
             None => round.kept as f64 / (options.largest_share * self.open as f64),
