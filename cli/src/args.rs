@@ -302,12 +302,24 @@ pub(crate) struct PictureArgs {
         help_heading = "Picture"
     )]
     pub(crate) spacing: Option<Numbers>,
-    /// Read points, --smooth, --scale and --normalize in physical units (--spacing) instead of pixels.
+    /// Read points, --smooth, --scale, --normalize and --margin in physical units (--spacing) instead of pixels.
     #[arg(long, help_heading = "Picture")]
     pub(crate) physical: bool,
     /// A picture or volume of the same size whose zeros are walls.
     #[arg(long, value_name = "FILE", help_heading = "Picture")]
     pub(crate) mask: Option<PathBuf>,
+    /// Make the walls of --mask thicker by this many pixels: the rim of a field of view, which is darker,
+    /// looks like a line.
+    #[arg(
+        long,
+        value_name = "M",
+        default_value_t = 0.0,
+        hide_default_value = true,
+        allow_negative_numbers = true,
+        requires = "mask",
+        help_heading = "Picture"
+    )]
+    pub(crate) margin: f64,
     /// Make the contrast the same everywhere inside --mask: the mean grey value around each pixel
     /// becomes 0.5, and the deviation there 0.125; both are averaged by a Gaussian of this standard deviation,
     /// in pixels. 15 did well at the retina.

@@ -73,6 +73,16 @@ impl<'a, const D: usize> Picture<'a, D> {
         };
         check_size(args.mask.as_deref(), mask.shape(), image.shape())?;
         let mut picture = Self { args, image, mask };
+        if args.margin < 0.0 || args.margin.is_nan() {
+            return Err(Failure::usage(format!(
+                "--margin is {}; it must be 0 or more",
+                args.margin
+            )));
+        }
+        if args.margin > 0.0 {
+            let unit = picture.image.shape().smallest_spacing();
+            picture.mask = picture.mask.shrunk(unit * picture.smoothing(args.margin));
+        }
         if let Some(sigma) = args.normalize {
             let (sigma, exec) = (picture.smoothing(sigma), Exec::single_threaded());
             let normalized = normalize_contrast(&picture.image, sigma, &picture.mask, &exec)
@@ -235,7 +245,7 @@ impl<'a, const D: usize> Picture<'a, D> {
         }
     }
 
-    /// --smooth, --scale and --normalize in cells.
+    /// --smooth, --scale, --normalize and --margin in cells.
     fn smoothing(&self, sigma: f64) -> f64 {
         let unit = if self.args.physical { self.image.shape().smallest_spacing() } else { 1.0 };
         sigma / unit

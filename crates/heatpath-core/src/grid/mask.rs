@@ -1,5 +1,6 @@
 //! Walls: cells that heat cannot enter and paths cannot cross.
 
+use super::skeleton::radii;
 use super::{Grid, Shape};
 
 /// Which cells are open; the others are walls with no flux through them.
@@ -19,6 +20,15 @@ impl<const D: usize> Mask<D> {
     #[must_use]
     pub fn all_open(shape: Shape<D>) -> Self {
         Self { open: Grid::from_fn(shape, |_| true) }
+    }
+
+    /// The mask with thicker walls: cells whose centre is not farther than `margin`, in physical units,
+    /// from the edge of a wall become walls too. The border of the grid is no wall.
+    ///
+    /// The rim of a field of view is darker than the rest, and looks like a line.
+    #[must_use]
+    pub fn shrunk(&self, margin: f64) -> Self {
+        Self { open: radii(&self.open).map(|&depth| depth > margin.max(0.0)) }
     }
 
     /// The same cells of a grid of the same size that may have another spacing.
@@ -143,6 +153,14 @@ mod tests {
         let mask = mask(&[".#", "#."]);
         assert!(!mask.segment_is_open([0.0, 0.0], [1.0, 1.0]));
         assert!(!mask.reachable_from([0]).values()[3]);
+    }
+
+    #[test]
+    fn walls_grow_by_a_margin_but_not_from_the_border() {
+        let mask = mask(&["......#", "......#", "......#"]);
+        let open = |margin| (0..7).filter(|&x| mask.shrunk(margin).open()[[x, 1]]).count();
+        assert_eq!([0.0, 0.5, 1.4, 1.5, 9.0].map(open), [6, 5, 5, 4, 0]);
+        assert_eq!(Mask::all_open(*mask.shape()).shrunk(5.0), Mask::all_open(*mask.shape()));
     }
 
     #[test]
