@@ -32,7 +32,7 @@ fn vessels(size: [usize; 2]) -> Medium<2> {
 
 fn votes(criterion: &mut Criterion) {
     let exec = Exec::new(2).unwrap();
-    let growth = Some(Growth { least_speed_sq: 0.15, gap: 3.0 });
+    let growth = Some(Growth::new(0.15));
     let mut group = criterion.benchmark_group("vote, 2 threads");
     group.sample_size(10);
     for size in [[300, 300], [1000, 960]] {

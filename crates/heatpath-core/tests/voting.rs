@@ -39,6 +39,13 @@ fn ends_on_front<const D: usize>(heat: &Heat<D>, level: f64) -> Vec<[f64; D]> {
     front.into_iter().map(|cell| heat.shape().centre(cell)).collect()
 }
 
+fn ends_in_structure(heat: &Heat<2>, medium: &Medium<2>, growth: Growth) -> Vec<[f64; 2]> {
+    let covered = covered(heat, 400.0);
+    let is_end =
+        |&cell: &usize| covered.values()[cell] && medium.speed_sq(cell) >= growth.least_speed_sq;
+    (0..heat.shape().cells()).filter(is_end).map(|cell| heat.shape().centre(cell)).collect()
+}
+
 /// Equation (23) as it is written: a set of cells for each path, found by walking along it in tiny
 /// steps.
 fn brute_force<const D: usize>(
@@ -126,8 +133,8 @@ fn media(image: &Grid<f64, 2>) -> [(&'static str, Medium<2>, Growth); 2] {
     let conductivity = medium::conductivity(image, &[0.8], Default::default()).unwrap();
     let vesselness = medium::vesselness(image, &Default::default(), &exec).unwrap();
     [
-        ("conductivity", conductivity, Growth { least_speed_sq: 0.45, gap: 3.0 }),
-        ("vesselness", vesselness, Growth { least_speed_sq: 0.15, gap: 3.0 }),
+        ("conductivity", conductivity, Growth::new(0.45)),
+        ("vesselness", vesselness, Growth::new(0.15)),
     ]
 }
 
@@ -154,10 +161,12 @@ fn a_tree_is_found() {
                 found.push((recall, precision));
             }
         }
-        let (recall, precision) = found[5];
-        assert!(recall >= 0.95 && precision >= 0.95, "{name}: {recall}, {precision}");
+        let recall = found[5].0;
+        for (recall, precision) in [found[1], found[3], found[5]] {
+            assert!(recall >= 0.95 && precision >= 0.95, "{name}: {recall}, {precision}");
+        }
         assert!(found[4].1 < 0.6, "{name}: the paper's rules alone run on into the background");
-        assert!(found[..4].iter().all(|&(recall, _)| recall < found[5].0));
+        assert!(found[0].0 < 0.8 && found[2].0 < 0.4, "{name}: the front misses branches");
         let baseline =
             vote_by_fast_marching(&medium, &sources, &Default::default(), &exec).unwrap();
         println!("{name}, fast marching: {:.3?}", measure(&baseline));
@@ -183,18 +192,22 @@ fn flowing_votes_agree_with_traced_ones() {
     let exec = Exec::new(2).unwrap();
     for (name, medium, growth) in media(&image) {
         let heat = heat(&medium, &[branches[0].from], 600);
-        let ends = ends_on_front(&heat, 400.0);
         let descent = Descent::new(&heat, &medium).unwrap();
         for growth in [None, Some(growth)] {
+            let ends = growth.map_or_else(
+                || ends_on_front(&heat, 400.0),
+                |growth| ends_in_structure(&heat, &medium, growth),
+            );
             let kept = [Counting::Traced, Counting::Flow].map(|counting| {
                 let votes = density(&descent, &ends, counting, growth, &exec).unwrap();
                 let largest = f64::from(*votes.values().iter().max().unwrap());
-                votes.map(|&votes| f64::from(votes) > largest / 30.0)
+                let least = growth.map_or(largest / 30.0, |growth| f64::from(growth.least_votes));
+                votes.map(|&votes| f64::from(votes) > least)
             });
             let shares = [(0, 1), (1, 0)].map(|(a, b)| share_within_one_cell(&kept[a], &kept[b]));
             println!("{name}, {} ends, growth {}: {shares:.4?}", ends.len(), growth.is_some());
             // In the background, where no valley leads them, paths may join another way.
-            let least = if growth.is_some() { 0.97 } else { 0.85 };
+            let least = if growth.is_some() { 0.99 } else { 0.85 };
             assert!(shares.iter().all(|&share| share > least), "{name}: {shares:?}");
         }
     }
@@ -241,6 +254,39 @@ fn rounds_keep_to_the_thresholds_and_to_algorithm_1() {
 }
 
 #[test]
+fn with_growth_votes_are_the_cells_of_the_structure_beyond() {
+    let speed_sq = |[x, y]: [usize; 2]| if y == 4 && x < 60 && x != 30 { 1.0 } else { 1e-2 };
+    let shape = Shape::new([70, 9]).unwrap();
+    let medium = medium::given(Grid::from_fn(shape, speed_sq), Form::Pointwise).unwrap();
+    let sources = Sources::new(&[[0.0, 4.0]], medium.mask()).unwrap();
+    for counting in [Counting::Traced, Counting::Flow] {
+        let options = VotingOptions {
+            counting: Some(counting),
+            growth: Some(Growth { least_votes: 7, ..Growth::new(0.5) }),
+            largest_share: 0.0,
+            level: Some(1e6),
+            steps: Some(200),
+            ..VotingOptions::default()
+        };
+        let votes = vote(&medium, &sources, &options, &Exec::single_threaded()).unwrap();
+        assert_eq!((votes.rounds[0].ends, votes.stopped), (59, Stop::Settled));
+        let once = VotingOptions { rounds: 1, ..options };
+        let once = vote(&medium, &sources, &once, &Exec::single_threaded()).unwrap();
+        for cell in 0..shape.cells() {
+            let [x, y] = shape.index(cell);
+            let beyond = if y == 4 { 60_usize.saturating_sub(x) } else { 0 };
+            let expected = if x > 30 || beyond == 0 { beyond } else { beyond - 1 };
+            assert_eq!(once.density.values()[cell] as usize, expected, "{x}, {y}: {counting:?}");
+            assert_eq!(once.kept.values()[cell], expected > 7, "{x}, {y}");
+        }
+        let growth = Some(Growth { gap: 0.5, ..Growth::new(0.5) });
+        let cut = VotingOptions { growth, ..options };
+        let cut = vote(&medium, &sources, &cut, &Exec::single_threaded()).unwrap();
+        assert!(cut.kept[[18, 4]] && (30..60).all(|x| cut.density[[x, 4]] == 0), "cut at x = 30");
+    }
+}
+
+#[test]
 fn heat_that_flows_on_is_heat_that_flowed_longer() {
     let (branches, image) = generated_tree();
     let [(_, medium, _), _] = media(&image);
@@ -261,13 +307,38 @@ fn heat_that_flows_on_is_heat_that_flowed_longer() {
 }
 
 #[test]
+fn far_below_the_level_heat_may_leave_the_range_of_numbers() {
+    let is_line = |[_, y]: [usize; 2]| y == 20;
+    let shape = Shape::new([150, 41]).unwrap();
+    let speed_sq = Grid::from_fn(shape, |index| if is_line(index) { 1.0 } else { 1e-99 });
+    let medium = medium::given(speed_sq, Form::Pointwise).unwrap();
+    let sources = Sources::new(&[[0.0, 20.0]], medium.mask()).unwrap();
+    let exec = Exec::single_threaded();
+    let heat = Explicit::new(&medium, HeatOptions::default()).unwrap().flow(&sources, &exec);
+    assert_eq!(heat.err(), Some(HeatError::Range));
+    for method in [Method::Front, Method::Multiple, Method::Accumulated] {
+        let options = VotingOptions { growth: Some(Growth::new(0.5)), ..options(method) };
+        let votes = vote(&medium, &sources, &options, &exec).unwrap();
+        let far = if method == Method::Multiple { 60 } else { 130 };
+        for cell in 0..shape.cells() {
+            let index = shape.index(cell);
+            let kept = votes.kept.values()[cell];
+            assert!(if is_line(index) { kept || index[0] > far } else { !kept }, "{index:?}");
+        }
+    }
+    let options = VotingOptions { level: Some(1e6), ..options(Method::Front) };
+    let error = vote(&medium, &sources, &options, &exec).err();
+    assert_eq!(error, Some(VotingError::Heat(HeatError::Range)));
+}
+
+#[test]
 fn threads_change_nothing() {
     let (branches, image) = generated_tree();
     let [_, (_, medium, growth)] = media(&image);
     let sources = Sources::new(&[branches[0].from], medium.mask()).unwrap();
     for counting in [Counting::Traced, Counting::Flow] {
-        let options =
-            VotingOptions { counting, growth: Some(growth), ..options(Method::Accumulated) };
+        let (counting, growth) = (Some(counting), Some(growth));
+        let options = VotingOptions { counting, growth, ..options(Method::Accumulated) };
         let votes = [1, 2, 3].map(|threads| {
             let exec = Exec::new(threads).unwrap();
             vote(&medium, &sources, &options, &exec).unwrap()
@@ -288,9 +359,10 @@ fn walls_stop_votes() {
     let medium = medium::conductivity(&image, &[0.8], Default::default()).unwrap();
     let medium = medium.with_walls(walls).unwrap();
     let sources = Sources::new(&[[12.0, 30.0]], medium.mask()).unwrap();
-    let growth = Some(Growth { least_speed_sq: 0.45, gap: 3.0 });
+    let growth = Some(Growth::new(0.45));
     for counting in [Counting::Traced, Counting::Flow] {
-        let options = VotingOptions { counting, growth, ..VotingOptions::default() };
+        let options =
+            VotingOptions { counting: Some(counting), growth, ..VotingOptions::default() };
         let votes = vote(&medium, &sources, &options, &Exec::single_threaded()).unwrap();
         let reached = (0..50).filter(|&x| votes.kept[[x, 30]]).count();
         assert!(reached > 30, "{reached}");
@@ -313,7 +385,7 @@ fn each_source_finds_its_own_tree() {
     ];
     let image = picture(shape, &branches, 0.02, &mut random);
     let medium = medium::conductivity(&image, &[0.8], Default::default()).unwrap();
-    let growth = Some(Growth { least_speed_sq: 0.45, gap: 3.0 });
+    let growth = Some(Growth::new(0.45));
     let options = VotingOptions { growth, ..VotingOptions::default() };
     let recall = |points: &[[f64; 2]]| {
         let sources = Sources::new(points, medium.mask()).unwrap();
@@ -340,9 +412,10 @@ fn tubes_that_branch_in_space_are_found() {
     let image = picture(shape, &branches, 0.05, &mut random);
     let medium = medium::conductivity(&image, &[0.8], Default::default()).unwrap();
     let sources = Sources::new(&[branches[0].from], medium.mask()).unwrap();
-    let growth = Some(Growth { least_speed_sq: 0.45, gap: 3.0 });
+    let growth = Some(Growth::new(0.45));
     for counting in [Counting::Traced, Counting::Flow] {
-        let options = VotingOptions { counting, growth, ..VotingOptions::default() };
+        let options =
+            VotingOptions { counting: Some(counting), growth, ..VotingOptions::default() };
         let votes = vote(&medium, &sources, &options, &Exec::new(2).unwrap()).unwrap();
         let (recall, precision) = recall_and_precision(&votes.kept, &branches, 2.0);
         println!("{counting:?}: {recall:.3}, {precision:.3}, {:?}", votes.rounds.last());
@@ -375,7 +448,7 @@ fn one_cell_is_found_at_once() {
         let exec = Exec::single_threaded();
         for method in [Method::Front, Method::Multiple, Method::Accumulated] {
             for counting in [Counting::Traced, Counting::Flow] {
-                let options = VotingOptions { counting, ..options(method) };
+                let options = VotingOptions { counting: Some(counting), ..options(method) };
                 let votes = vote(&medium, &sources, &options, &exec).unwrap();
                 assert_eq!((votes.density.values(), votes.kept.values()), (&[1][..], &[true][..]));
                 assert_eq!(votes.stopped, Stop::LargestShare);
@@ -393,8 +466,9 @@ fn a_source_outside_of_the_structure_finds_nothing() {
     let medium = medium::uniform(Shape::new([30, 20]).unwrap());
     let sources = Sources::new(&[[12.0, 9.0]], medium.mask()).unwrap();
     for counting in [Counting::Traced, Counting::Flow] {
-        let growth = Some(Growth { least_speed_sq: 2.0, gap: 5.0 });
-        let options = VotingOptions { growth, counting, ..VotingOptions::default() };
+        let growth = Some(Growth::new(2.0));
+        let options =
+            VotingOptions { growth, counting: Some(counting), ..VotingOptions::default() };
         let votes = vote(&medium, &sources, &options, &Exec::single_threaded()).unwrap();
         assert_eq!(votes.kept.values().iter().filter(|&&kept| kept).count(), 1);
         assert_eq!((votes.rounds.len(), votes.stopped), (1, Stop::Settled));
@@ -453,7 +527,7 @@ fn bad_parameters_are_named() {
     let sources = Sources::new(&[[1.0, 1.0]], medium.mask()).unwrap();
     let exec = Exec::single_threaded();
     let fine = VotingOptions::default();
-    let growth = |least_speed_sq, gap| Some(Growth { least_speed_sq, gap });
+    let growth = |least_speed_sq, gap| Some(Growth { gap, ..Growth::new(least_speed_sq) });
     let bad = [
         (VotingOptions { threshold: Some(1.0), ..fine }, "threshold is 1;"),
         (VotingOptions { threshold: Some(f64::NAN), ..fine }, "threshold is NaN;"),

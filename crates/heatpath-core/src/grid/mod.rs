@@ -27,7 +27,7 @@ pub mod voting;
 pub use eigen::eigen;
 pub use field::{Grid, LengthError, NotFinite, fraction};
 pub use mask::Mask;
-pub use seeds::seeds;
+pub use seeds::{seeds, structure_level};
 pub use shape::{Shape, ShapeError};
 pub use source::{PointError, Sources, check_points};
 pub use tensor::{Matrix, TensorField};

@@ -17,10 +17,11 @@ pub enum Counting {
     /// By tracing no way twice: each path is cut into short pieces from cell centre to cell centre,
     /// so that paths join, and each piece carries all votes that come to it.
     ///
-    /// On a generated tree, with 1023 and 1081 long paths, all kept cells are within one cell of
-    /// those of the other way of counting if growth stops at the structure's edge; without it 99.8 per
-    /// cent in vesselness, and 89 in the conductivity of eq. (6), where paths through the even
-    /// background join elsewhere. Votes that went from cell to neighbouring cell instead, as water
+    /// On a generated tree, with 4832 and 5717 ends, all kept cells are within one cell of those of
+    /// the other way of counting if the structure votes ([`Growth`]); with 1023 and 1081 long paths
+    /// from a front 99.8 per cent in vesselness, and 89 in the conductivity of eq. (6), where paths
+    /// through the even background join elsewhere. On six retinas recall and precision differ by
+    /// 0.004 at most. Votes that went from cell to neighbouring cell instead, as water
     /// does in terrain models, ran along the axes and diagonals: in the conductivity the precision
     /// fell by 5 to 15 points.
     Flow,

@@ -71,7 +71,8 @@ pub fn vote_by_fast_marching<const D: usize>(
     let report = &mut |finished| exec.report(finished);
     let density = votes(&descent, &ends, (counting, None), report, exec)?;
     let mut tally = Tally::new(medium, sources);
-    tally.count(&density, threshold, (distances.reached().count(), ends.len()));
+    let least_votes = |largest| threshold * f64::from(largest);
+    tally.count(&density, least_votes, (distances.reached().count(), ends.len()));
     Ok(tally.votes(Stop::Rounds))
 }
 

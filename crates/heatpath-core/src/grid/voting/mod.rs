@@ -48,7 +48,7 @@ pub struct Votes<const D: usize> {
 pub struct Round {
     /// The cells that heat covers.
     pub covered: usize,
-    /// The ends of paths: cells on the front.
+    /// The ends of paths: cells on the front, or with [`Growth`] of the structure.
     pub ends: usize,
     /// The largest density of this round.
     pub largest_density: u32,
@@ -103,10 +103,11 @@ pub enum VotingError {
 /// to the sources, and cells are kept through which more paths go than a part of the largest number
 /// (eq. 23). [`VotingOptions::method`] says what heat does next. The rounds end by the two rules of
 /// Algorithm 1: a large enough share of the picture is kept, or few of the kept cells are new. Walls
-/// do not count as picture.
+/// do not count as picture. With [`Growth`] the structure votes instead of the front, and the second
+/// rule alone ends it.
 ///
-/// Progress is that of the larger of two shares: of the picture that may be kept, and of the
-/// rounds. The second rule may end it sooner.
+/// Progress is that of the larger of two shares: of the rounds, and of the picture that may be kept
+/// or, with [`Growth`], of the structure that heat has covered. The second rule may end it sooner.
 ///
 /// ```
 /// use heatpath_core::Exec;
@@ -117,7 +118,7 @@ pub enum VotingError {
 /// let image = Grid::from_fn(Shape::new([80, 60])?, |index| f64::from(u8::from(is_cross(index))));
 /// let medium = medium::conductivity(&image, &[1.0], Default::default())?;
 /// let sources = Sources::new(&[[40.0, 50.0]], medium.mask())?;
-/// let growth = Some(Growth { least_speed_sq: 0.5, gap: 3.0 });
+/// let growth = Some(Growth::new(0.5));
 /// let options = VotingOptions { growth, ..VotingOptions::default() };
 /// let votes = vote(&medium, &sources, &options, &Exec::single_threaded())?;
 /// assert!(votes.kept[[40, 20]] && votes.kept[[20, 30]] && !votes.kept[[20, 20]]);
@@ -134,7 +135,7 @@ pub fn vote<const D: usize>(
 ) -> Result<Votes<D>, VotingError> {
     options.check()?;
     let mut tally = Tally::new(medium, sources);
-    let mut explicit = Explicit::new(medium, options.heat())?;
+    let mut explicit = Explicit::new(medium, options.heat())?.down_to(options.level());
     let steps = explicit.iterations();
     loop {
         let finished = tally.finished(options);
@@ -143,7 +144,8 @@ pub fn vote<const D: usize>(
             Method::Accumulated => explicit.flow_reporting(&tally.found, report, exec)?,
             _ => {
                 let duration = Duration::Iterations(steps * (tally.rounds.len() + 1));
-                explicit = Explicit::new(medium, HeatOptions { duration, ..options.heat() })?;
+                explicit = Explicit::new(medium, HeatOptions { duration, ..options.heat() })?
+                    .down_to(options.level());
                 explicit.flow_reporting(sources, report, exec)?
             }
         };

@@ -33,7 +33,7 @@ impl<'a, const D: usize> Tally<'a, D> {
         }
     }
 
-    /// Votes from the front of `heat`.
+    /// Votes from the ends that `heat` has come to.
     pub(super) fn vote(
         &mut self,
         heat: &Heat<D>,
@@ -45,25 +45,29 @@ impl<'a, const D: usize> Tally<'a, D> {
         let region = covered(heat, options.level());
         report(0.0)?;
         let shape = self.medium.shape();
-        let ends: Vec<_> = front(&region).into_iter().map(|cell| shape.centre(cell)).collect();
+        let ends = match options.growth {
+            Some(growth) => growth.cells(&region, self.medium),
+            None => front(&region),
+        };
+        let ends: Vec<_> = ends.into_iter().map(|cell| shape.centre(cell)).collect();
         let descent = Descent::new(heat, self.medium).expect("heat keeps its exposure by default");
-        let counting = (options.counting, options.growth);
+        let counting = (options.counting(), options.growth);
         let density = votes(&descent, &ends, counting, report, exec)?;
         let covered = region.values().iter().filter(|&&is_inside| is_inside).count();
-        self.count(&density, options.threshold(), (covered, ends.len()));
+        self.count(&density, |largest| options.least_votes(largest), (covered, ends.len()));
         Ok(())
     }
 
-    /// Keeps the cells above the threshold.
+    /// Keeps the cells whose density is above `least_votes` of the largest density.
     pub(super) fn count(
         &mut self,
         density: &Grid<u32, D>,
-        threshold: f64,
+        least_votes: impl Fn(u32) -> f64,
         (covered, ends): (usize, usize),
     ) {
         let votes = density.values();
         let largest_density = votes.iter().copied().max().unwrap_or(0);
-        let least = threshold * f64::from(largest_density);
+        let least = least_votes(largest_density);
         let kept = self.kept.values_mut();
         let is_new = |&cell: &usize| f64::from(votes[cell]) > least && !kept[cell];
         let new: Vec<usize> = (0..votes.len()).filter(is_new).collect();
@@ -77,7 +81,7 @@ impl<'a, const D: usize> Tally<'a, D> {
     /// Whether one of the rules of Algorithm 1 is met, or all rounds are over.
     pub(super) fn stop(&self, options: &VotingOptions) -> Option<Stop> {
         let &Round { kept, new, .. } = self.rounds.last()?;
-        if kept as f64 > options.largest_share * self.open as f64 {
+        if options.growth.is_none() && kept as f64 > options.largest_share * self.open as f64 {
             Some(Stop::LargestShare)
         } else if (kept - new) as f64 > options.settled_share * kept as f64 {
             Some(Stop::Settled)
@@ -89,8 +93,15 @@ impl<'a, const D: usize> Tally<'a, D> {
     /// How far voting is on its way to the end that is in sight.
     pub(super) fn finished(&self, options: &VotingOptions) -> f64 {
         let Some(round) = self.rounds.last() else { return 0.0 };
+        let most_ends = self.rounds.iter().map(|round| round.ends).max().unwrap_or(0);
         let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
-        let share = round.kept as f64 / (options.largest_share * self.open as f64);
+        let share = match options.growth {
+            Some(growth) => {
+                let structure = growth.cells(self.medium.mask().open_cells(), self.medium);
+                most_ends as f64 / structure.len() as f64
+            }
+            None => round.kept as f64 / (options.largest_share * self.open as f64),
+        };
         rounds.max(share).min(1.0)
     }
 

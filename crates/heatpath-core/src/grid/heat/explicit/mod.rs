@@ -16,7 +16,7 @@ use super::{Heat, Scheme, shares};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Sources};
-use schedule::{Fields, Steps, Tiles, Tiling};
+use schedule::{Fields, MOST_DEPTH, Steps, Tiles, Tiling};
 use stencil::Stencil;
 use thiserror::Error;
 
@@ -129,6 +129,10 @@ pub enum HeatError {
 const SMALLEST_STEP: f64 = 1e-100;
 const MOST_ITERATIONS: f64 = 1e12;
 
+/// How far below a level heat does not count, in logarithms: e^-100 of it, even from every cell at
+/// every step, is nothing.
+const MARGIN: f64 = 100.0;
+
 /// Explicit heat in one medium, prepared once for any number of sources.
 ///
 /// ```
@@ -156,6 +160,8 @@ pub struct Explicit<'a, const D: usize> {
     iterations: usize,
     step: f64,
     exposure: bool,
+    /// How many powers of two below the hottest tile heat is let go; `None` keeps all.
+    depth: Option<i32>,
 }
 
 impl<'a, const D: usize> Explicit<'a, D> {
@@ -183,7 +189,15 @@ impl<'a, const D: usize> Explicit<'a, D> {
         let usual = (D * medium.shape().longest_side()) as f64;
         let (iterations, step) = steps(options.duration, step, usual)?;
         let (stencil, exposure) = (Stencil::new(&operator, step), options.exposure);
-        Ok(Self { medium, stencil, iterations, step, exposure })
+        Ok(Self { medium, stencil, iterations, step, exposure, depth: None })
+    }
+
+    /// Lets heat go that is far below `level`, for those who want to know no more than where
+    /// `-ln(u / u_max)` is below it, and the exposure there: these are the same in all but the last
+    /// bits, and heat may fall by any number of powers of ten.
+    pub(crate) fn down_to(self, level: f64) -> Self {
+        let depth = ((level + MARGIN) / std::f64::consts::LN_2).ceil() as i32;
+        Self { depth: (depth <= MOST_DEPTH).then_some(depth), ..self }
     }
 
     /// The number of time steps.
@@ -271,6 +285,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             iterations: self.iterations,
             exposure,
             spare: self.spare(&shares),
+            depth: self.depth,
         };
         let (ln_temperature, ln_exposure) = self.march(&steps, &shares, report, exec)?;
         let cell = |&point: &[f64; D]| shape.position(shape.cell_at(point));
@@ -299,7 +314,7 @@ impl<'a, const D: usize> Explicit<'a, D> {
             let mut heat = Tiles::new(self.medium.shape(), tiling);
             shares.iter().for_each(|&(cell, amount)| heat.add(cell, amount));
             match heat.march(steps, report, exec)? {
-                Some(fields) if !self.has_lost_heat(&fields, shares) => {
+                Some(fields) if self.depth.is_some() || !self.has_lost_heat(&fields, shares) => {
                     return Ok(fields);
                 }
                 _ => {}

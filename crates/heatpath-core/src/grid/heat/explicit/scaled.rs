@@ -16,7 +16,6 @@ const TOP: i32 = 960;
 const BOTTOM: i32 = -960;
 
 /// How many powers of two the values of one block may span.
-#[cfg(test)]
 pub(super) const RANGE: i32 = TOP - BOTTOM;
 
 /// Values that stand for `value * 2^exponent`.

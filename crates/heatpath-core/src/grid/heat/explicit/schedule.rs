@@ -10,7 +10,7 @@
 //! is passed over.
 
 use super::kernel::{Extent, Window};
-use super::scaled::{Scale, Scaled, exponent_for, largest, trusted};
+use super::scaled::{RANGE, Scale, Scaled, exponent_for, largest, trusted};
 use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
@@ -28,6 +28,8 @@ pub(super) struct Steps<'a, const D: usize> {
     pub(super) exposure: bool,
     /// How many steps heat has in reserve when it comes to the furthest cell, if that is known.
     pub(super) spare: Option<usize>,
+    /// How many powers of two below the hottest tile heat may be lost, at most [`MOST_DEPTH`].
+    pub(super) depth: Option<i32>,
 }
 
 /// How the grid is cut.
@@ -97,6 +99,9 @@ const MOST_STEPS: usize = 8;
 
 /// How many powers of two the largest value of a window may lie above the top of a tile's range.
 const HEADROOM: i32 = 32;
+
+/// Less heat than this many powers of two below the hottest is lost in no tile.
+pub(super) const MOST_DEPTH: i32 = RANGE - HEADROOM;
 
 /// The temperature of the whole grid, tile by tile.
 pub(super) struct Tiles<const D: usize> {
@@ -204,6 +209,10 @@ impl<const D: usize> Tiles<D> {
             }
             self.visited = visited;
             done += count;
+            if let Some(depth) = steps.depth {
+                self.let_go_below(depth);
+                continue;
+            }
             let longest_way = self.tiling.longest_way();
             let is_late = done + longest_way > steps.iterations;
             if has_lost && (is_late || steps.spare.is_some_and(|spare| spare < longest_way)) {
@@ -215,6 +224,19 @@ impl<const D: usize> Tiles<D> {
         let (shape, tiling) = (self.shape, self.tiling);
         let exposure = steps.exposure.then(|| logarithms(shape, tiling, exposure, exec));
         Ok(Some((logarithms(shape, tiling, temperature, exec), exposure)))
+    }
+
+    /// Takes the heat from tiles that are `depth` powers of two below the hottest one.
+    fn let_go_below(&mut self, depth: i32) {
+        let order = |tile: &Temperature| {
+            (tile.largest > 0.0).then(|| exponent_for(tile.largest, tile.heat.exponent))
+        };
+        let hottest = self.now.iter().filter_map(order).max();
+        let least = hottest.map(|hottest| hottest - depth);
+        for tile in self.now.iter_mut().filter(|tile| order(tile) < least) {
+            tile.heat.values.clear();
+            tile.largest = 0.0;
+        }
     }
 
     /// Where a thread advances its tile.
