@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod automatic;
+mod key_points;
 mod panels;
 mod paths;
 mod scenes;
