@@ -27,6 +27,10 @@ pub(crate) enum Command {
     Distance(DistanceArgs),
     /// Trace minimal paths from end points to the sources.
     Path(PathArgs),
+    /// Find curves by the votes of many minimal paths.
+    Vote(VoteArgs),
+    /// Find curves from key point to key point.
+    Keypoints(KeyPointsArgs),
     /// Write the medium alone (k D, the squared speed) to look at what the heat will see.
     Medium(MediumCommandArgs),
     /// Say how well extracted curves agree with a truth: recall and precision by length.
@@ -78,6 +82,125 @@ pub(crate) struct PathArgs {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = extraction_group("density"))]
+pub(crate) struct VoteArgs {
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) sources: OptionalSourceArgs,
+    #[command(flatten)]
+    pub(crate) medium: MediumArgs,
+    #[command(flatten)]
+    pub(crate) structure: StructureArgs,
+    /// Where paths begin.
+    #[arg(long, default_value = "accumulated", help_heading = "Votes")]
+    pub(crate) method: VotingMethodArg,
+    /// The paper's rules alone: paths begin at the front of the heat, and what is kept may leave the
+    /// structure.
+    #[arg(long, help_heading = "Votes")]
+    pub(crate) no_growth: bool,
+    /// The longest way outside of the structure that a curve may bridge, in pixels [default: 8].
+    #[arg(
+        long,
+        value_name = "GAP",
+        allow_negative_numbers = true,
+        conflicts_with = "no_growth",
+        help_heading = "Votes"
+    )]
+    pub(crate) gap: Option<f64>,
+    /// A pixel is kept if more paths than this cross it, one from each pixel of the structure beyond
+    /// [default: 10].
+    #[arg(long, value_name = "N", conflicts_with = "no_growth", help_heading = "Votes")]
+    pub(crate) least_votes: Option<u32>,
+    /// With --no-growth and fast marching: a pixel is kept if this part of the largest number of paths
+    /// crosses it [default: 1/30; multiple, accumulated: 1/7].
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Votes")]
+    pub(crate) threshold: Option<f64>,
+    /// How far below the highest temperature heat covers a pixel, in natural logarithms [default: 36;
+    /// front, multiple: 240].
+    #[arg(long, value_name = "LN", allow_negative_numbers = true, help_heading = "Votes")]
+    pub(crate) level: Option<f64>,
+    /// The steps of heat before each vote [default: twice the longest side for the front, else 100].
+    #[arg(long, value_name = "N", help_heading = "Votes")]
+    pub(crate) iterations: Option<usize>,
+    /// Branches that end in the open are cut if they are shorter than this, in physical units, or than
+    /// 1.5 times the radius of the branch that they leave [default: 0].
+    #[arg(
+        long,
+        value_name = "L",
+        default_value_t = 0.0,
+        hide_default_value = true,
+        allow_negative_numbers = true,
+        help_heading = "Votes"
+    )]
+    pub(crate) prune: f64,
+    /// Where the curves go: a graph of branches with radii (.json, .csv, .swc, .vtp), the curves alone
+    /// (.svg), or the pixels that were kept, 255 and 0 (.png, .npy, .tif). PNG and SVG are not for volumes.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    /// Where the geodesic density goes, the number of votes (eq. 23): .npy, .tif or, not for volumes,
+    /// .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) density: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) out: OutputArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(group = extraction_group("travelling"))]
+pub(crate) struct KeyPointsArgs {
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+    #[command(flatten)]
+    pub(crate) sources: OptionalSourceArgs,
+    #[command(flatten)]
+    pub(crate) medium: MediumArgs,
+    #[command(flatten)]
+    pub(crate) structure: StructureArgs,
+    /// How key points are found.
+    #[arg(long, default_value = "heat", help_heading = "Key points")]
+    pub(crate) method: KeyPointMethodArg,
+    /// How far key points are apart, in pixels: the radius of circles (spheres) of heat, or the length of
+    /// paths [default: 4 times the half width of the structure, from 10 to 30].
+    #[arg(long, value_name = "R", allow_negative_numbers = true, help_heading = "Key points")]
+    pub(crate) radius: Option<f64>,
+    /// The steps of heat for each key point; as many as it takes to cross the circle, if that is more
+    /// [default: 50].
+    #[arg(long, value_name = "N", help_heading = "Key points")]
+    pub(crate) iterations: Option<usize>,
+    /// Where the curves and key points go: .json, .csv, .swc, .vtp or, not for volumes, .svg.
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    /// Where the travelling map goes, the distances from the key points: .npy, .tif or, not for volumes,
+    /// .png.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) travelling: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) out: OutputArgs,
+}
+
+/// Where the structure is, and where extraction begins.
+#[derive(Debug, clap::Args)]
+pub(crate) struct StructureArgs {
+    /// From this k D on a pixel belongs to the structure [default: by Otsu's method, from the picture].
+    #[arg(long, value_name = "KD", allow_negative_numbers = true, help_heading = "Structure")]
+    pub(crate) structure: Option<f64>,
+    /// Without a --source, one is put into each piece of the structure that is this long, in pixels
+    /// [default: a sixteenth of the longest side].
+    #[arg(long, value_name = "L", allow_negative_numbers = true, help_heading = "Structure")]
+    pub(crate) extent: Option<f64>,
+    /// How many threads work [default: one per processor].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        hide_default_value = true,
+        help_heading = "Structure"
+    )]
+    pub(crate) threads: usize,
 }
 
 #[derive(Debug, clap::Args)]
@@ -153,6 +276,11 @@ fn result_group() -> ArgGroup {
     ArgGroup::new("result").args(["output", "overlay", "json"]).required(true).multiple(true)
 }
 
+/// As [`result_group`], with one more file.
+fn extraction_group(file: &'static str) -> ArgGroup {
+    result_group().arg(file)
+}
+
 #[derive(Debug, clap::Args)]
 pub(crate) struct PictureArgs {
     /// The picture or volume: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes.
@@ -180,9 +308,9 @@ pub(crate) struct PictureArgs {
     /// A picture or volume of the same size whose zeros are walls.
     #[arg(long, value_name = "FILE", help_heading = "Picture")]
     pub(crate) mask: Option<PathBuf>,
-    /// Make the contrast the same everywhere inside --mask: each grey value becomes how far it is
-    /// from the mean around it, in multiples of the deviation there, about -3 to 3. Both are averaged by a
-    /// Gaussian of this standard deviation, in pixels; 15 did well at the retina.
+    /// Make the contrast the same everywhere inside --mask: the mean grey value around each pixel
+    /// becomes 0.5, and the deviation there 0.125; both are averaged by a Gaussian of this standard deviation,
+    /// in pixels. 15 did well at the retina.
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, help_heading = "Picture")]
     pub(crate) normalize: Option<f64>,
 }
@@ -204,7 +332,7 @@ pub(crate) struct OptionalSourceArgs {
     pub(crate) sources: Option<PathBuf>,
 }
 
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Debug, clap::Args)]
 pub(crate) struct MediumArgs {
     /// What the heat sees: equations (1), (6), (8), (10) to (12) of Yang & Cohen, tubes, or a
     /// given field.
@@ -225,15 +353,10 @@ pub(crate) struct MediumArgs {
     /// The grey value (0 to 1) that eq. (6) compares with [default: that of the sources].
     #[arg(long, value_name = "F", allow_negative_numbers = true, help_heading = "Medium")]
     pub(crate) reference: Option<f64>,
-    /// The contrast K of eq. (8), in grey values per pixel.
-    #[arg(
-        long,
-        value_name = "K",
-        default_value_t = 0.03,
-        allow_negative_numbers = true,
-        help_heading = "Medium"
-    )]
-    pub(crate) contrast: f64,
+    /// The contrast K of eq. (8), in grey values per pixel [default: 0.03], or the contrast of a tube
+    /// whose vesselness is 1, in grey values [default: the picture's largest; with --normalize 0.125].
+    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Medium")]
+    pub(crate) contrast: Option<f64>,
     /// The form of eq. (8).
     #[arg(long, default_value = "exponential", help_heading = "Medium")]
     pub(crate) edge_stop: EdgeStopArg,
@@ -374,6 +497,28 @@ pub(crate) enum MediumArg {
     Vesselness,
     /// The field in --medium-file.
     File,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum VotingMethodArg {
+    /// At the front of heat that has flowed for long (section 4.1.1).
+    Front,
+    /// At the front of heat again and again, while it flows on (4.1.2).
+    Multiple,
+    /// At the front of heat from all that has been found (4.1.3).
+    Accumulated,
+    /// At 500 random pixels; by fast marching (Rouchdy & Cohen).
+    Random,
+    /// At the picture's border; by fast marching.
+    Border,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum KeyPointMethodArg {
+    /// At the peaks of heat on circles (Algorithm 2).
+    Heat,
+    /// Where minimal paths are long enough, by fast marching (Benmansour & Cohen).
+    Length,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -4,7 +4,9 @@ use heatpath_core::evaluation::EvaluationError;
 use heatpath_core::exec::ThreadsError;
 use heatpath_core::grid::distance::{EikonalError, HeatMethodError};
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
+use heatpath_core::grid::keypoints::KeyPointError;
 use heatpath_core::grid::medium::MediumError;
+use heatpath_core::grid::voting::VotingError;
 use heatpath_core::grid::{PointError, ShapeError};
 use heatpath_io::{ReadError, WriteError};
 use std::fmt;
@@ -162,6 +164,30 @@ impl From<EvaluationError> for Failure {
         match error {
             EvaluationError::Tolerance { .. } | EvaluationError::Shape(_) => Self::usage(error),
             _ => Self::bad_input(error),
+        }
+    }
+}
+
+impl From<VotingError> for Failure {
+    fn from(error: VotingError) -> Self {
+        match error {
+            VotingError::Heat(error) => error.into(),
+            VotingError::Eikonal(error) => error.into(),
+            VotingError::End(error) => error.into(),
+            VotingError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            VotingError::Parameter { .. } => Self::usage(error),
+        }
+    }
+}
+
+impl From<KeyPointError> for Failure {
+    fn from(error: KeyPointError) -> Self {
+        match error {
+            KeyPointError::Heat(error) => error.into(),
+            KeyPointError::Eikonal(error) => error.into(),
+            KeyPointError::Point(error) => error.into(),
+            KeyPointError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            KeyPointError::Parameter { .. } => Self::usage(error),
         }
     }
 }

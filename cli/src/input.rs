@@ -18,6 +18,9 @@ use std::path::Path;
 /// The names of the coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// The grey value that --normalize gives to a local deviation.
+const DEVIATION: f64 = 0.125;
+
 /// The input, which is a picture or a volume: here ways part, and each command calls a function
 /// that is generic over the dimension.
 pub(crate) enum Input {
@@ -72,8 +75,9 @@ impl<'a, const D: usize> Picture<'a, D> {
         let mut picture = Self { args, image, mask };
         if let Some(sigma) = args.normalize {
             let (sigma, exec) = (picture.smoothing(sigma), Exec::single_threaded());
-            picture.image = normalize_contrast(&picture.image, sigma, &picture.mask, &exec)
+            let normalized = normalize_contrast(&picture.image, sigma, &picture.mask, &exec)
                 .map_err(MediumError::from)?;
+            picture.image = normalized.map(|&d| (0.5 + DEVIATION * d).clamp(0.0, 1.0));
         }
         Ok(picture)
     }
@@ -127,7 +131,7 @@ impl<'a, const D: usize> Picture<'a, D> {
             floor: args.floor.unwrap_or(usual.floor),
         };
         let perona_malik = PeronaMalikOptions {
-            contrast: args.contrast,
+            contrast: args.contrast.unwrap_or(PeronaMalikOptions::default().contrast),
             edge_stop: match args.edge_stop {
                 EdgeStopArg::Exponential => EdgeStop::Exponential,
                 EdgeStopArg::Rational => EdgeStop::Rational,
@@ -186,10 +190,12 @@ impl<'a, const D: usize> Picture<'a, D> {
             power: args.power.unwrap_or(usual.power),
             floor: args.floor.unwrap_or(usual.floor),
             anisotropy: args.anisotropy.unwrap_or(usual.anisotropy),
+            anisotropy_power: usual.anisotropy_power,
             tubes: Tubes {
                 polarity: polarity(args).unwrap_or(usual.tubes.polarity),
                 elongation: args.elongation.unwrap_or(usual.tubes.elongation),
                 scales: if scales.is_empty() { usual.tubes.scales } else { scales },
+                contrast: args.contrast.or(self.args.normalize.map(|_| DEVIATION)),
                 ..usual.tubes
             },
         }

@@ -2,7 +2,7 @@
 
 use crate::args::OutputArgs;
 use crate::failure::Failure;
-use heatpath_io::check_output;
+use heatpath_io::{FieldFormat, check_output};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
@@ -47,6 +47,26 @@ pub(crate) fn check(
             return Err(Failure::usage(format!(
                 "{}: is given as --output and as --overlay; they need two files",
                 overlay.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that a field can be written to the file of a further option.
+pub(crate) fn check_field(
+    option: &str,
+    file: Option<&Path>,
+    output: Option<&Path>,
+    out: &OutputArgs,
+) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    check_output(file, None, out.force, &FieldFormat::ENDINGS)?;
+    for (other, name) in [(output, "--output"), (out.overlay.as_deref(), "--overlay")] {
+        if other == Some(file) {
+            return Err(Failure::usage(format!(
+                "{}: is given as {option} and as {name}; they need two files",
+                file.display()
             )));
         }
     }

@@ -34,7 +34,7 @@ fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Res
         .collect::<Result<Vec<_>, _>>()?;
     // === Write
     let shape = picture.image.shape();
-    let curves = Curves { spacing: shape.spacing(), paths };
+    let curves = Curves { spacing: shape.spacing(), paths, key_points: Vec::new() };
     if let Some(output) = &args.output {
         write_curves(output, args.out.format.as_deref(), args.out.force, &curves, shape)?;
     }

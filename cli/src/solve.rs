@@ -1,20 +1,17 @@
-//! Distances by any method, with a progress bar and an answer to Ctrl-C.
+//! Distances by any method.
 
 use crate::args::{EstimatorArg, MethodArgs};
 use crate::eikonal::EikonalPlan;
 use crate::failure::Failure;
 use crate::heat::{HeatPlan, Readout};
 use crate::heat_method::HeatMethodPlan;
+use crate::run::run;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
 use heatpath_core::grid::distance::DistanceMap;
 use heatpath_core::grid::heat::Heat;
 use heatpath_core::grid::medium::Medium;
 use heatpath_core::grid::path::Descent;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// What the options of a command ask for.
@@ -146,40 +143,21 @@ pub(crate) fn solve<'a, const D: usize>(
     quiet: bool,
 ) -> Result<Outcome<'a, D>, Failure> {
     let sources = Sources::new(sources, medium.mask())?;
-    let bar = progress_bar(plan.work(), quiet);
-    let interrupted = interruption();
-    let exec = Exec::new(plan.threads)?.with_watch(|finished| {
-        bar.set_position((finished * 1000.0) as u64);
-        if interrupted.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    let start = Instant::now();
-    let solution = plan.approach.solve(medium, &sources, ends, &exec);
-    bar.finish_and_clear();
-    let Solution { heat, distances, heat_seconds } = solution?;
-    let distance_seconds = start.elapsed().as_secs_f64() - heat_seconds;
-    let (threads, simd) = (exec.threads(), exec.simd().name());
-    Ok(Outcome { medium, sources, heat, distances, heat_seconds, distance_seconds, threads, simd })
-}
-
-/// A bar on standard error; indicatif shows it on terminals only.
-fn progress_bar(work: &'static str, quiet: bool) -> ProgressBar {
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style =
-        ProgressStyle::with_template("{prefix} [{bar:40}] {percent:>3} % {elapsed} (left: {eta})");
-    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ");
-    ProgressBar::with_draw_target(Some(1000), target).with_style(style).with_prefix(work)
-}
-
-/// A flag that Ctrl-C and requests to terminate set.
-fn interruption() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&flag);
-    // Without a handler an interruption ends the process at once, which leaves no partial file
-    // either: outputs are renamed when complete.
-    drop(ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed)));
-    flag
+    run(plan.work(), (plan.threads, quiet), |exec| {
+        let start = Instant::now();
+        let solution = plan.approach.solve(medium, &sources, ends, exec)?;
+        let Solution { heat, distances, heat_seconds } = solution;
+        let distance_seconds = start.elapsed().as_secs_f64() - heat_seconds;
+        let (threads, simd) = (exec.threads(), exec.simd().name());
+        Ok(Outcome {
+            medium,
+            sources: sources.clone(),
+            heat,
+            distances,
+            heat_seconds,
+            distance_seconds,
+            threads,
+            simd,
+        })
+    })
 }

@@ -4,6 +4,7 @@ use crate::output::{check_dimension, known_format, write_atomically};
 use crate::points::AXES;
 use crate::{WriteError, svg, swc, vtp};
 use heatpath_core::grid::Shape;
+use heatpath_core::grid::keypoints::KeyPoint;
 use heatpath_core::grid::path::{Ending, Path as Curve};
 use serde::Serialize;
 use serde_json::Value;
@@ -17,6 +18,8 @@ pub struct Curves<const D: usize> {
     pub spacing: [f64; D],
     /// The paths, each from its end point to its source, in pixel coordinates.
     pub paths: Vec<Curve<D>>,
+    /// The key points that the paths connect; none if there are no such.
+    pub key_points: Vec<KeyPoint<D>>,
 }
 
 impl<const D: usize> Curves<D> {
@@ -68,11 +71,13 @@ fn points<const D: usize>(curves: &Curves<D>) -> impl Iterator<Item = &[[f64; D]
 /// ```json
 /// { "version": 1, "dimension": 2, "spacing": [1.0, 1.0],
 ///   "paths": [ { "points": [[3.0, 4.0], [0.0, 0.0]], "length": 5.0, "physical_length": 5.0,
-///                "ended": "source", "source": 0, "end": [3.0, 4.0], "distance": 5.0 } ] }
+///                "ended": "source", "source": 0, "end": [3.0, 4.0], "distance": 5.0 } ],
+///   "keypoints": [ { "point": [0.0, 0.0], "parent": null } ] }
 /// ```
 ///
 /// `ended` is `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
-/// path ended at one, and `distance` is null where there is none.
+/// path ended at one, and `distance` is null where there is none. The key points are left out if there
+/// are none; `parent` is the number of the key point at which one's path ends, null for seeds.
 #[must_use]
 pub fn curves_json<const D: usize>(curves: &Curves<D>) -> Value {
     // Numbers, strings and lists always convert.
@@ -97,6 +102,15 @@ struct Document<'a> {
     dimension: usize,
     spacing: &'a [f64],
     paths: Vec<Entry<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    keypoints: Vec<KeyPointEntry<'a>>,
+}
+
+/// One key point in the JSON file.
+#[derive(Serialize)]
+struct KeyPointEntry<'a> {
+    point: &'a [f64],
+    parent: Option<usize>,
 }
 
 /// One path in the JSON file.
@@ -114,8 +128,15 @@ struct Entry<'a> {
 
 impl<'a> Document<'a> {
     fn new<const D: usize>(curves: &'a Curves<D>) -> Self {
-        let paths = curves.paths.iter().map(Entry::new).collect();
-        Self { version: 1, dimension: D, spacing: &curves.spacing, paths }
+        let key_point =
+            |key: &'a KeyPoint<D>| KeyPointEntry { point: &key.point, parent: key.parent };
+        Self {
+            version: 1,
+            dimension: D,
+            spacing: &curves.spacing,
+            paths: curves.paths.iter().map(Entry::new).collect(),
+            keypoints: curves.key_points.iter().map(key_point).collect(),
+        }
     }
 }
 

@@ -84,6 +84,32 @@ pub fn write_field<const D: usize>(
     })
 }
 
+/// Writes a mask in the given format, or else in the one that the ending of `path` stands for: 255 in
+/// the cells that are true, 0 in the others. A picture (`.png`) has one grey pixel a cell.
+///
+/// # Errors
+/// As [`write_field`].
+pub fn write_mask<const D: usize>(
+    path: impl AsRef<Path>,
+    format: Option<&str>,
+    overwrite: bool,
+    mask: &Grid<bool, D>,
+) -> Result<(), WriteError> {
+    let values = mask.map(|&is_inside| if is_inside { 255.0 } else { 0.0 });
+    match (FieldFormat::new(&path, format)?, as_picture(&values)) {
+        (FieldFormat::Png, Some(values)) => write_atomically(&path, overwrite, |out| {
+            let size = values.shape().size();
+            check_picture_size(size)?;
+            let [width, height] = size.map(|n| n as u32);
+            let pixels: Vec<u8> = values.values().iter().map(|&value| value as u8).collect();
+            PngEncoder::new(out)
+                .write_image(&pixels, width, height, ExtendedColorType::L8)
+                .map_err(io::Error::other)
+        }),
+        _ => write_field(path, format, overwrite, &values, &FieldStyle::default()),
+    }
+}
+
 /// The grid itself if it is a picture.
 pub(crate) fn as_picture<const D: usize>(grid: &Grid<f64, D>) -> Option<&Grid<f64, 2>> {
     (grid as &dyn Any).downcast_ref()

@@ -19,9 +19,9 @@ pub const GRAPH_ENDINGS: [&str; 4] = ["json", "csv", "swc", "vtp"];
 /// - `.csv`: one row a branch, counted from 0, with its nodes, lengths, tortuosity, mean radius and the
 ///   points of its ends in pixel coordinates:
 ///   `branch,from,to,length,physical_length,tortuosity,mean_radius,from_x,from_y,to_x,to_y`;
-/// - `.swc`: trees in physical units, each rooted at its node that is the nearest to `root` (pixel
-///   coordinates; its first node if there is none); a branch that would close a loop ends before its
-///   last point, which a comment line says;
+/// - `.swc`: trees in physical units, each rooted at its node that is the nearest to any of the
+///   `seeds` (pixel coordinates; its first node if there are none); a branch that would close a loop
+///   ends before its last point, which a comment line says;
 /// - `.vtp`: polylines in physical units with the radius at each point, for VTK and `ParaView`.
 ///
 /// In SWC and VTP the centre of the first cell is the origin, and radii that are not known are 0.
@@ -34,16 +34,16 @@ pub fn write_graph<const D: usize>(
     format: Option<&str>,
     overwrite: bool,
     graph: &Graph<D>,
-    root: Option<[f64; D]>,
+    seeds: &[[f64; D]],
 ) -> Result<(), WriteError> {
     let format = known_format(path.as_ref(), format, &GRAPH_ENDINGS)?;
     write_atomically(path, overwrite, |out| match format {
         "json" => {
-            serde_json::to_writer(&mut *out, &Document::new(graph))?;
+            serde_json::to_writer(&mut *out, &Document::new(graph, seeds))?;
             writeln!(out)
         }
         "csv" => write_csv(out, graph),
-        "swc" => swc::write_graph(out, graph, root),
+        "swc" => swc::write_graph(out, graph, seeds),
         _ => {
             let lines = graph.branches.iter();
             let lines = lines.map(|branch| (branch.points.as_slice(), branch.radii.as_slice()));
@@ -57,17 +57,19 @@ pub fn write_graph<const D: usize>(
 /// ```json
 /// { "version": 1, "dimension": 2, "spacing": [1.0, 1.0],
 ///   "nodes": [ { "point": [0.0, 0.0], "degree": 1, "radius": 0.5 } ],
-///   "branches": [ { "from": 0, "to": 1, "points": [[0.0, 0.0], [3.0, 4.0]], "length": 5.0,
-///                   "physical_length": 5.0, "tortuosity": 1.0, "mean_radius": 0.5,
-///                   "radii": [0.5, 0.5] } ] }
+///   "paths": [ { "points": [[0.0, 0.0], [3.0, 4.0]], "length": 5.0, "physical_length": 5.0,
+///                "ended": "source", "source": 0, "end": [0.0, 0.0], "from": 0, "to": 1,
+///                "tortuosity": 1.0, "mean_radius": 0.5, "radii": [0.5, 0.5] } ] }
 /// ```
 ///
-/// Points are in pixel coordinates. What is infinite, such as the tortuosity of a closed curve, is
-/// null.
+/// The paths are the branches, `from` and `to` their nodes. A path `ended` at `source` if one of the
+/// `seeds`, that with the lowest number, is the nearest to a node of its piece of the graph; if none is,
+/// it is `unreachable` from them, and `source` is null. Points are in pixel coordinates. What is infinite,
+/// such as the tortuosity of a closed curve, is null.
 #[must_use]
-pub fn graph_json<const D: usize>(graph: &Graph<D>) -> Value {
+pub fn graph_json<const D: usize>(graph: &Graph<D>, seeds: &[[f64; D]]) -> Value {
     // Numbers, strings and lists always convert.
-    serde_json::to_value(Document::new(graph)).unwrap_or_default()
+    serde_json::to_value(Document::new(graph, seeds)).unwrap_or_default()
 }
 
 /// The layout of the JSON file.
@@ -77,7 +79,7 @@ struct Document<'a> {
     dimension: usize,
     spacing: Vec<f64>,
     nodes: Vec<NodeEntry<'a>>,
-    branches: Vec<BranchEntry<'a>>,
+    paths: Vec<BranchEntry<'a>>,
 }
 
 #[derive(Serialize)]
@@ -89,29 +91,36 @@ struct NodeEntry<'a> {
 
 #[derive(Serialize)]
 struct BranchEntry<'a> {
-    from: usize,
-    to: usize,
     points: Vec<&'a [f64]>,
     length: f64,
     physical_length: f64,
+    ended: &'static str,
+    source: Option<usize>,
+    end: Option<&'a [f64]>,
+    from: usize,
+    to: usize,
     tortuosity: f64,
     mean_radius: f64,
     radii: &'a [f64],
 }
 
 impl<'a> Document<'a> {
-    fn new<const D: usize>(graph: &'a Graph<D>) -> Self {
+    fn new<const D: usize>(graph: &'a Graph<D>, seeds: &[[f64; D]]) -> Self {
+        let sources = sources(graph, seeds);
         let node = |node: &'a Node<D>| NodeEntry {
             point: &node.point,
             degree: node.degree,
             radius: node.radius,
         };
         let branch = |branch: &'a Branch<D>| BranchEntry {
-            from: branch.from,
-            to: branch.to,
             points: branch.points.iter().map(<[f64; D]>::as_slice).collect(),
             length: branch.length,
             physical_length: branch.physical_length,
+            ended: if sources[branch.from].is_some() { "source" } else { "unreachable" },
+            source: sources[branch.from],
+            end: branch.points.first().map(<[f64; D]>::as_slice),
+            from: branch.from,
+            to: branch.to,
             tortuosity: branch.tortuosity,
             mean_radius: branch.mean_radius,
             radii: &branch.radii,
@@ -121,7 +130,40 @@ impl<'a> Document<'a> {
             dimension: D,
             spacing: graph.shape.spacing().to_vec(),
             nodes: graph.nodes.iter().map(node).collect(),
-            branches: graph.branches.iter().map(branch).collect(),
+            paths: graph.branches.iter().map(branch).collect(),
+        }
+    }
+}
+
+/// The lowest number of a seed in the piece of the graph around each node.
+fn sources<const D: usize>(graph: &Graph<D>, seeds: &[[f64; D]]) -> Vec<Option<usize>> {
+    let mut sources = vec![None; graph.nodes.len()];
+    for (number, &seed) in seeds.iter().enumerate() {
+        let distance = |node: &usize| graph.shape.physical_distance(seed, graph.nodes[*node].point);
+        let nearest = (0..graph.nodes.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(node) = nearest.filter(|&node| sources[node].is_none()) {
+            spread(graph, node, number, &mut sources);
+        }
+    }
+    sources
+}
+
+/// Gives a number to all nodes that branches connect with one.
+fn spread<const D: usize>(
+    graph: &Graph<D>,
+    node: usize,
+    number: usize,
+    numbers: &mut [Option<usize>],
+) {
+    numbers[node] = Some(number);
+    let mut is_growing = true;
+    while is_growing {
+        is_growing = false;
+        for Branch { from, to, .. } in &graph.branches {
+            if numbers[*from] != numbers[*to] {
+                (numbers[*from], numbers[*to]) = (Some(number), Some(number));
+                is_growing = true;
+            }
         }
     }
 }

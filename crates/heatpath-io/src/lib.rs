@@ -9,7 +9,7 @@
 //! | in | points ([`read_points`]) | CSV, JSON |
 //! | in | curves ([`CurveFile`]) | JSON, CSV, SWC |
 //! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
-//! | out | fields ([`write_field`]) | NPY, TIFF, PNG |
+//! | out | fields and masks ([`write_field`], [`write_mask`]) | NPY, TIFF, PNG |
 //! | out | curves ([`write_curves`]) | JSON, CSV, SVG, SWC, VTP |
 //! | out | skeleton graphs ([`write_graph`]) | JSON, CSV, SWC, VTP |
 //! | out | a result on its picture ([`write_overlay`]) | PNG |
@@ -60,7 +60,7 @@ pub use colour::colour_map;
 pub use curves::{Curves, curves_json, write_curves};
 pub use decode::Format;
 pub use error::{ReadError, WriteError};
-pub use field::{FieldFormat, FieldStyle, write_field};
+pub use field::{FieldFormat, FieldStyle, write_field, write_mask};
 pub use graph::{graph_json, write_graph};
 pub use info::{Info, info};
 pub use output::{check_dimension, check_output, write_atomically};

@@ -5,6 +5,7 @@ use crate::colour::{NOT_FINITE, colour_of, enlargement, finite_range};
 use crate::field::{as_picture, check_picture_size, write_png};
 use crate::output::{known_format, write_atomically};
 use heatpath_core::grid::Grid;
+use heatpath_core::grid::keypoints::KeyPoint;
 use heatpath_core::grid::path::{Ending, Path as Curve};
 use image::RgbImage;
 use std::io;
@@ -19,6 +20,7 @@ const COVER: f64 = 0.5;
 
 const BLACK: [u8; 4] = [0, 0, 0, 255];
 const WHITE: [u8; 4] = [255, 255, 255, 255];
+const YELLOW: [u8; 4] = [255, 225, 0, 255];
 const RED: [u8; 4] = [230, 20, 30, 255];
 /// Under each curve, so that it shows on light ground.
 const SHADOW: [u8; 4] = [0, 20, 40, 200];
@@ -36,6 +38,10 @@ pub struct Overlay<'a, const D: usize> {
     /// Curves: cyan if they ended at a source, else dashed and orange. Their end points are white
     /// dots, the sources at which they ended red crosses.
     pub paths: &'a [Curve<D>],
+    /// Whether curves are pieces of a whole: without a dot and a cross at their ends.
+    pub are_pieces: bool,
+    /// Key points, drawn as yellow dots.
+    pub key_points: &'a [KeyPoint<D>],
     /// Further sources, drawn as red crosses too.
     pub sources: &'a [[f64; D]],
 }
@@ -73,8 +79,11 @@ pub fn write_overlay<const D: usize>(
 
 fn drawn<const D: usize>(mut canvas: Canvas, layers: &Overlay<'_, D>) -> RgbImage {
     canvas.draw_paths(layers.paths);
-    let ends = layers.paths.iter().filter_map(|path| path.points.first());
-    ends.for_each(|&end| canvas.draw_end(end));
+    if !layers.are_pieces {
+        let ends = layers.paths.iter().filter_map(|path| path.points.first());
+        ends.for_each(|&end| canvas.draw_dot(end, WHITE));
+    }
+    layers.key_points.iter().for_each(|key_point| canvas.draw_dot(key_point.point, YELLOW));
     for source in sources(layers) {
         canvas.draw_source(source);
     }
@@ -83,7 +92,7 @@ fn drawn<const D: usize>(mut canvas: Canvas, layers: &Overlay<'_, D>) -> RgbImag
 
 /// The sources, each once.
 fn sources<const D: usize>(layers: &Overlay<'_, D>) -> Vec<[f64; D]> {
-    let reached = layers.paths.iter().filter(|path| reached_source(path));
+    let reached = layers.paths.iter().filter(|path| !layers.are_pieces && reached_source(path));
     let mut all: Vec<[f64; D]> = layers.sources.to_vec();
     for &source in reached.filter_map(|path| path.points.last()) {
         if !all.contains(&source) {
@@ -159,10 +168,10 @@ impl Canvas {
         self.draw_stroke(builder, colour, &stroke);
     }
 
-    fn draw_end<const D: usize>(&mut self, end: [f64; D]) {
-        let (x, y) = (end[0] as f32, end[1] as f32);
+    fn draw_dot<const D: usize>(&mut self, at: [f64; D], colour: [u8; 4]) {
+        let (x, y) = (at[0] as f32, at[1] as f32);
         let radius = (1.3 * self.line).max(3.0);
-        for (radius, colour) in [(radius + 1.2, BLACK), (radius, WHITE)] {
+        for (radius, colour) in [(radius + 1.2, BLACK), (radius, colour)] {
             let circle = PathBuilder::from_circle(x, y, radius / self.scale);
             if let Some(circle) = circle {
                 let paint = paint(colour);

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 /// Curves of a file that says itself whether they lie in a picture or in a volume.
 ///
 /// The content decides the format. JSON is what [`write_curves`](crate::write_curves) and
-/// [`write_graph`](crate::write_graph) write: an object with a list `paths` or `branches`, of which
+/// [`write_graph`](crate::write_graph) write: an object with a list `paths`, of which
 /// each has `points`. CSV has a header line that names `x`, `y` and, in volumes, `z`; rows of another
 /// `path` than those before begin a new curve. Lines of seven numbers are SWC, in physical units.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,10 +102,8 @@ fn the_file(reason: &str) -> Trouble {
 fn from_json(bytes: &[u8]) -> Result<Found, Trouble> {
     let value: Value = serde_json::from_slice(bytes)
         .map_err(|error| (format!("line {}", error.line()), format!("not valid JSON: {error}")))?;
-    let list = value.get("paths").or_else(|| value.get("branches")).and_then(Value::as_array);
-    let list = list.ok_or_else(|| {
-        the_file("expected an object with a list named \"paths\" or \"branches\"")
-    })?;
+    let list = value.get("paths").and_then(Value::as_array);
+    let list = list.ok_or_else(|| the_file("expected an object with a list named \"paths\""))?;
     let first = list.iter().find_map(|curve| curve.get("points")?.get(0)?.as_array());
     let given = value.get("dimension").and_then(Value::as_u64);
     let dimensions: &[usize] = match given.or(first.map(|point| point.len() as u64)) {

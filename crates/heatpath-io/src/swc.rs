@@ -45,14 +45,15 @@ pub(crate) fn write_paths<'a, const D: usize>(
     Ok(())
 }
 
-/// Writes a graph as trees, each rooted at its node that is the nearest to `root`.
+/// Writes a graph as trees, each rooted at its node that is the nearest to any of `seeds`.
 pub(crate) fn write_graph<const D: usize>(
     out: &mut dyn Write,
     graph: &Graph<D>,
-    root: Option<[f64; D]>,
+    seeds: &[[f64; D]],
 ) -> io::Result<()> {
     let distance = |node: usize| {
-        root.map_or(0.0, |root| graph.shape.physical_distance(root, graph.nodes[node].point))
+        let to = |&seed: &[f64; D]| graph.shape.physical_distance(seed, graph.nodes[node].point);
+        seeds.iter().map(to).fold(f64::INFINITY, f64::min)
     };
     let mut order: Vec<usize> = (0..graph.nodes.len()).collect();
     order.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));

@@ -25,6 +25,7 @@ fn some_curves() -> Curves<2> {
             path(&[[1.0, 1.0], [2.0, 2.0]], Ending::NotReached, f64::INFINITY),
             path(&[[1.0, 1.0]], Ending::StepLimit, f64::NAN),
         ],
+        key_points: Vec::new(),
     }
 }
 
@@ -68,7 +69,8 @@ fn json_knows_volumes() {
         physical_length: 0.0,
         distance: 0.0,
     };
-    let value = curves_json(&Curves { spacing: [1.0; 3], paths: vec![path] });
+    let value =
+        curves_json(&Curves { spacing: [1.0; 3], paths: vec![path], key_points: Vec::new() });
     assert_eq!(
         (&value["dimension"], &value["paths"][0]["end"]),
         (&json!(3), &json!([1.0, 2.0, 3.0]))
@@ -86,7 +88,7 @@ fn volumes_have_a_column_more_and_no_drawing() {
         distance: 0.0,
     };
     let points = path.points.clone();
-    let curves = Curves { spacing: [1.0, 1.0, 2.5], paths: vec![path] };
+    let curves = Curves { spacing: [1.0, 1.0, 2.5], paths: vec![path], key_points: Vec::new() };
     let shape = Shape::with_spacing([4, 4, 4], curves.spacing).unwrap();
     let file = folder.path().join("a.csv");
     write_curves(&file, None, false, &curves, &shape).unwrap();
@@ -217,7 +219,7 @@ proptest! {
     fn coordinates_survive_csv_and_json(
         points in prop::collection::vec([coordinate(), coordinate()], 1..20)
     ) {
-        let curves = Curves { spacing: [1.0; 2], paths: vec![path(&points, Ending::Source(0), 1.0)] };
+        let curves = Curves { spacing: [1.0; 2], paths: vec![path(&points, Ending::Source(0), 1.0)], key_points: Vec::new() };
         let csv = written("a.csv", &curves);
         prop_assert_eq!(&read_points_from_bytes(csv.as_bytes(), "a.csv").unwrap(), &points);
         let json = serde_json::to_string(&json!({ "points": points })).unwrap();

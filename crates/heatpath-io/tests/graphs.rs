@@ -40,10 +40,10 @@ fn json_and_csv_have_the_documented_layout() {
     assert_eq!((graph.nodes.len(), graph.branches.len()), (4, 3));
     let text = written("json", &graph, None);
     let value: Value = serde_json::from_str(&text).unwrap();
-    let again: Value = serde_json::from_str(&graph_json(&graph).to_string()).unwrap();
+    let again: Value = serde_json::from_str(&graph_json(&graph, &[]).to_string()).unwrap();
     assert_eq!(value, again);
     assert!(text.starts_with("{\"version\":1,\"dimension\":2,\"spacing\":[0.5,2.0],\"nodes\":[{"));
-    for (entry, branch) in value["branches"].as_array().unwrap().iter().zip(&graph.branches) {
+    for (entry, branch) in value["paths"].as_array().unwrap().iter().zip(&graph.branches) {
         let length = entry["physical_length"].as_f64().unwrap();
         assert!((length - branch.physical_length).abs() < 1e-12 * length);
         assert_eq!(entry["tortuosity"].as_f64().is_some(), branch.tortuosity.is_finite());
@@ -135,7 +135,7 @@ fn what_is_no_curve_is_named() {
         ("1 0 1 2 3 1 -1\n1 0 1 2 3 1 1\n", "line 2: the id 1 stands above"),
         ("path,x,y\n0,1,2\n0,1,x\n", "line 3: expected a finite number for y"),
         ("path,x,y\n0,1\n", "line 2"),
-        ("{\"points\": []}", "\"paths\" or \"branches\""),
+        ("{\"points\": []}", "\"paths\""),
         ("{\"paths\": [{\"points\": [[1]]}]}", "two or three numbers"),
         ("{\"paths\": [{\"points\": [[1, 2], [1, null]]}]}", "curve 0"),
         ("{\"paths\": [{\"points\": [[1, 2]]}, {}]}", "curve 1"),

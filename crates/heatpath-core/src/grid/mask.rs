@@ -44,11 +44,6 @@ impl<const D: usize> Mask<D> {
         self.open.values()[position]
     }
 
-    /// Which cells are open.
-    pub(crate) fn open_cells(&self) -> &Grid<bool, D> {
-        &self.open
-    }
-
     /// Whether there are no walls.
     #[must_use]
     pub fn is_all_open(&self) -> bool {

@@ -21,6 +21,7 @@ mod shape;
 pub mod skeleton;
 mod source;
 mod stencil;
+mod structure;
 mod tensor;
 pub mod voting;
 
@@ -30,4 +31,5 @@ pub use mask::Mask;
 pub use seeds::{seeds, structure_level};
 pub use shape::{Shape, ShapeError};
 pub use source::{PointError, Sources, check_points};
+pub use structure::{half_width, structure};
 pub use tensor::{Matrix, TensorField};

@@ -1,11 +1,13 @@
 //! The region R of a key point.
 
-use super::search::Search;
+use super::search::{APART, Branch, Search, cells_between, leads_to};
 use super::window::{Flow, box_around};
 use crate::grid::Grid;
 
-/// The cells of the structure inside a key point's circle that are connected with it there, and to
-/// which enough of its heat has come.
+/// The cells of the structure inside a key point's circle that are connected with it there, to
+/// which enough of its heat has come, and which lie along its ways to the peaks on the circle. A branch
+/// that begins inside the circle but has no peak on it, as the other arm of a sharp fork, is not known
+/// yet.
 #[derive(Clone, Debug)]
 pub(super) struct Region<const D: usize> {
     low: [usize; D],
@@ -13,7 +15,12 @@ pub(super) struct Region<const D: usize> {
 }
 
 impl<const D: usize> Region<D> {
-    pub(super) fn new(search: &Search<'_, D>, flow: &Flow<D>, point: [f64; D]) -> Self {
+    pub(super) fn new(
+        search: &Search<'_, D>,
+        flow: &Flow<D>,
+        point: [f64; D],
+        peaks: &[Branch<D>],
+    ) -> Self {
         let shape = search.medium.shape();
         let radius = search.options.radius;
         let (low, size) = box_around(shape, point, radius.ceil() as usize);
@@ -27,6 +34,7 @@ impl<const D: usize> Region<D> {
             shape.physical_distance(point, at) <= limit
                 && search.is_inside(at)
                 && search.is_warm(flow, at, 1.0)
+                && (cells_between(point, at) < APART || leads_to(peaks, at))
         });
         let mut cells = belongs.map(|_| false);
         let start: [f64; D] = std::array::from_fn(|axis| point[axis] - low[axis] as f64);

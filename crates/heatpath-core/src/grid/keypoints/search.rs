@@ -138,7 +138,7 @@ impl<'a, const D: usize> Search<'a, D> {
             }
         }
         let tips = peaks.split_off(on_first);
-        let region = Region::new(self, &flow, point);
+        let region = Region::new(self, &flow, point, &peaks);
         Ok(Visit { flow, peaks, tips, region })
     }
 
@@ -173,7 +173,7 @@ impl<'a, const D: usize> Search<'a, D> {
 }
 
 /// Whether one of the branches passes by a point.
-fn leads_to<const D: usize>(branches: &[Branch<D>], point: [f64; D]) -> bool {
+pub(super) fn leads_to<const D: usize>(branches: &[Branch<D>], point: [f64; D]) -> bool {
     branches.iter().any(|branch| passes(&branch.path.points, point, APART))
 }
 

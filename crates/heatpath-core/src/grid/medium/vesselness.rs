@@ -16,14 +16,25 @@ pub struct VesselnessOptions {
     /// The squared speed where there is no tube. Positive; default 1e-4.
     pub floor: f64,
     /// How much faster along a tube than across: where the response is v the anisotropy of
-    /// eq. (14) is A v. From 0, the default, which is none, to
-    /// [`MOST_ANISOTROPY`](super::MOST_ANISOTROPY).
+    /// eq. (14) is `A v^q`, with q the [`anisotropy_power`](Self::anisotropy_power). From 0, the
+    /// default, which is none, to [`MOST_ANISOTROPY`](super::MOST_ANISOTROPY).
     pub anisotropy: f64,
+    /// How soon the anisotropy falls where the response does: the q of `A v^q`. From 0, where all
+    /// responses above 0 have the anisotropy A; default 1.
+    ///
+    /// Responses of thin vessels are a tenth of the largest: with a power of 1 their medium is isotropic.
+    pub anisotropy_power: f64,
 }
 
 impl Default for VesselnessOptions {
     fn default() -> Self {
-        Self { tubes: Tubes::default(), power: 2.0, floor: 1e-4, anisotropy: 0.0 }
+        Self {
+            tubes: Tubes::default(),
+            power: 2.0,
+            floor: 1e-4,
+            anisotropy: 0.0,
+            anisotropy_power: 1.0,
+        }
     }
 }
 
@@ -50,17 +61,29 @@ pub fn vesselness<const D: usize>(
     check_positive("power", options.power)?;
     check_positive("floor", options.floor)?;
     check_anisotropy(options.anisotropy)?;
+    check_anisotropy_power(options.anisotropy_power)?;
     let found = filter::vesselness(image, &options.tubes, exec)?;
     let speed_sq = found.response.map(|v| v.powf(options.power) + options.floor);
     if options.anisotropy == 0.0 {
         return Ok(Medium::from_field(speed_sq, Form::Pointwise));
     }
     let field = TensorField::from_fn(*image.shape(), |index| {
-        let across = speed_across(options.anisotropy * found.response[index]);
+        let v = found.response[index];
+        // A response of 0 has no direction, and 0 to the power of 0 is 1.
+        let confidence = if v > 0.0 { v.powf(options.anisotropy_power) } else { 0.0 };
+        let across = speed_across(options.anisotropy * confidence);
         with_axis(&found.direction[index], 1.0, across)
     });
     let mask = Mask::all_open(*image.shape());
     Ok(Medium { factor: Some(speed_sq), diffusion: Diffusion::Tensor(field), mask })
+}
+
+fn check_anisotropy_power(value: f64) -> Result<(), MediumError> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    let range = "a finite number, 0 or above";
+    Err(MediumError::Parameter { name: "anisotropy power", value, range })
 }
 
 #[cfg(test)]
@@ -84,5 +107,28 @@ mod tests {
         let medium = vesselness(&line, &scalar, &Exec::single_threaded()).unwrap();
         assert!((medium.speed_sq(line.shape().position([20, 15])) - 1.01).abs() < 1e-12);
         assert!(medium.factor().is_some());
+    }
+
+    #[test]
+    fn weak_tubes_keep_their_direction() {
+        let bump = |y: f64, middle: f64| (-0.5 * ((y - middle) / 2.0).powi(2)).exp();
+        let lines = Grid::from_fn(Shape::new([40, 60]).unwrap(), |[_, y]| {
+            bump(y as f64, 15.0) + 0.1 * bump(y as f64, 45.0)
+        });
+        let across = |anisotropy_power: f64, y: usize| {
+            let options =
+                VesselnessOptions { anisotropy: 0.5, anisotropy_power, ..Default::default() };
+            let medium = vesselness(&lines, &options, &Exec::single_threaded()).unwrap();
+            medium.diffusion().tensor().unwrap().at(lines.shape().position([20, y]))[1][1]
+        };
+        for power in [0.0, 0.5, 1.0] {
+            assert!((across(power, 15) - 1.0 / 3.0).abs() < 1e-12, "the strongest: A");
+            let expected = speed_across(0.5 * 0.1_f64.powf(power));
+            assert!((across(power, 45) - expected).abs() < 1e-3, "power {power}");
+            assert_eq!(across(power, 30), 1.0, "no tube, no direction");
+        }
+        let bad = VesselnessOptions { anisotropy_power: -1.0, ..Default::default() };
+        let error = vesselness(&lines, &bad, &Exec::single_threaded()).unwrap_err();
+        assert!(matches!(error, MediumError::Parameter { name: "anisotropy power", .. }));
     }
 }

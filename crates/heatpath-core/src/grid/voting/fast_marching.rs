@@ -78,7 +78,7 @@ pub fn vote_by_fast_marching<const D: usize>(
 
 /// The cells at which the paths begin.
 fn cells<const D: usize>(ends: Ends, medium: &Medium<D>) -> Result<Vec<usize>, VotingError> {
-    let open = medium.mask().open_cells();
+    let open = medium.mask().open();
     match ends {
         Ends::Border => Ok(front(open)),
         Ends::Random { count: 0, .. } => {

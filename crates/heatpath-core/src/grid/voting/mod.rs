@@ -43,6 +43,18 @@ pub struct Votes<const D: usize> {
     pub stopped: Stop,
 }
 
+impl<const D: usize> Votes<D> {
+    /// The cells that votes crossed or that were kept: with [`Growth`] the part of the structure that hangs
+    /// together with the sources.
+    #[must_use]
+    pub fn crossed(&self) -> Grid<bool, D> {
+        let mut crossed = self.kept.clone();
+        let votes = self.density.values().iter();
+        crossed.values_mut().iter_mut().zip(votes).for_each(|(cell, &votes)| *cell |= votes > 0);
+        crossed
+    }
+}
+
 /// What one round of votes came to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Round {

@@ -21,14 +21,14 @@ pub(super) struct Tally<'a, const D: usize> {
 
 impl<'a, const D: usize> Tally<'a, D> {
     pub(super) fn new(medium: &'a Medium<D>, sources: &Sources<D>) -> Self {
-        let mut kept = medium.mask().open_cells().map(|_| false);
+        let mut kept = medium.mask().open().map(|_| false);
         sources.points().iter().for_each(|&point| kept[medium.shape().cell_at(point)] = true);
         Self {
             medium,
             found: sources.clone(),
             density: kept.map(|_| 0),
             kept,
-            open: medium.mask().open_cells().values().iter().filter(|&&open| open).count(),
+            open: medium.mask().open().values().iter().filter(|&&open| open).count(),
             rounds: Vec::new(),
         }
     }
@@ -97,7 +97,7 @@ impl<'a, const D: usize> Tally<'a, D> {
         let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
         let share = match options.growth {
             Some(growth) => {
-                let structure = growth.cells(self.medium.mask().open_cells(), self.medium);
+                let structure = growth.cells(self.medium.mask().open(), self.medium);
                 most_ends as f64 / structure.len() as f64
             }
             None => round.kept as f64 / (options.largest_share * self.open as f64),

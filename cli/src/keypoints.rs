@@ -1,0 +1,129 @@
+//! `heatpath keypoints`
+
+use crate::args::{KeyPointMethodArg, KeyPointsArgs};
+use crate::failure::Failure;
+use crate::input::{Input, Picture};
+use crate::output;
+use crate::run::run;
+use crate::structure::Structure;
+use heatpath_core::Exec;
+use heatpath_core::grid::half_width;
+use heatpath_core::grid::keypoints::{
+    KeyPointOptions, KeyPoints, LengthOptions, Stop, key_points, key_points_by_length,
+};
+use heatpath_io::{
+    Curves, FieldStyle, ImageFile, Overlay, curves_json, write_curves, write_field, write_overlay,
+};
+
+/// All of a path must run in the structure, also where that is faint: in pixels of at least this part of
+/// the k D from which on a pixel is certain to belong to it.
+const FAINT: f64 = 0.5;
+
+/// The radius of circles in multiples of the structure's half width, and its limits in cells.
+const RADIUS: (f64, f64, f64) = (4.0, 10.0, 30.0);
+
+pub(crate) fn keypoints(args: &KeyPointsArgs) -> Result<(), Failure> {
+    output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
+    let output = args.output.as_deref();
+    output::check_field("--travelling", args.travelling.as_deref(), output, &args.out)?;
+    match Input::read(&args.picture, &[&args.sources.source])? {
+        Input::Picture(file) => keypoints_in::<2>(args, file),
+        Input::Volume(file) => keypoints_in::<3>(args, file),
+    }
+}
+
+fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result<(), Failure> {
+    output::check_dimension(args.output.as_deref(), &args.out, D)?;
+    output::check_dimension(args.travelling.as_deref(), &args.out, D)?;
+    let picture = Picture::<D>::new(&args.picture, file)?;
+    let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
+    let radius = radius(args, &found);
+    let found_points = run("key points", (args.structure.threads, args.out.quiet), |exec| {
+        search(args, &found, radius, exec)
+    })?;
+    // === Write
+    let shape = picture.image.shape();
+    let paths = found_points.links.iter().map(|link| link.path.clone()).collect();
+    let curves =
+        Curves { spacing: shape.spacing(), paths, key_points: found_points.points.clone() };
+    if let Some(output) = &args.output {
+        write_curves(output, args.out.format.as_deref(), args.out.force, &curves, shape)?;
+    }
+    if let Some(file) = &args.travelling {
+        let style = FieldStyle { title: Some("travelling map".to_owned()) };
+        write_field(file, None, args.out.force, &found_points.travelling, &style)?;
+    }
+    if let Some(overlay) = &args.out.overlay {
+        let layers = Overlay {
+            field: Some(&found_points.travelling),
+            paths: &curves.paths,
+            key_points: &curves.key_points,
+            sources: found.sources.points(),
+            are_pieces: true,
+        };
+        write_overlay(overlay, args.out.force, &picture.image, &layers)?;
+    }
+    // === Report
+    if args.out.json {
+        output::print_json(&curves_json(&curves))?;
+    }
+    output::tell(&args.out, &line(&found_points, &curves, found.sources.points().len(), radius));
+    Ok(())
+}
+
+/// The radius of circles in cells: as asked, or as wide as the structure asks for.
+fn radius<const D: usize>(args: &KeyPointsArgs, found: &Structure<D>) -> f64 {
+    let unit = found.medium.shape().smallest_spacing();
+    let (widths, least, most) = RADIUS;
+    let usual = || half_width(&found.cells()).map_or(most, |half| widths * half / unit);
+    args.radius.unwrap_or_else(|| usual().clamp(least, most))
+}
+
+fn search<const D: usize>(
+    args: &KeyPointsArgs,
+    found: &Structure<D>,
+    radius: f64,
+    exec: &Exec,
+) -> Result<KeyPoints<D>, Failure> {
+    let Structure { medium, sources, .. } = found;
+    let least_speed_sq = args.structure.structure.unwrap_or(FAINT * found.least_speed_sq);
+    Ok(match args.method {
+        KeyPointMethodArg::Heat => {
+            let usual = KeyPointOptions::default();
+            let options = KeyPointOptions {
+                radius,
+                iterations: args.iterations.unwrap_or(usual.iterations),
+                least_speed_sq,
+                ..usual
+            };
+            key_points(medium, sources, &options, exec)?
+        }
+        KeyPointMethodArg::Length => {
+            let options =
+                LengthOptions { length: radius, least_speed_sq, ..LengthOptions::default() };
+            key_points_by_length(medium, sources, &options, exec)?
+        }
+    })
+}
+
+/// The result in words.
+fn line<const D: usize>(
+    found: &KeyPoints<D>,
+    curves: &Curves<D>,
+    seeds: usize,
+    radius: f64,
+) -> String {
+    let stop = match found.stop {
+        Stop::Complete => "",
+        Stop::Most => ", which are as many as allowed",
+    };
+    let length: f64 = curves.paths.iter().map(|path| path.physical_length).sum();
+    format!(
+        "{} key points{stop}, {seeds} of them seeds, {} apart: {} paths of {length:.1} in all, {} of \
+         them close a curve",
+        found.points.len(),
+        radius,
+        curves.paths.len(),
+        found.closing().count()
+    )
+}

@@ -1,0 +1,83 @@
+//! Where the structure is, and where extraction begins, if nobody says so.
+
+use crate::args::{MediumArg, MediumArgs, OptionalSourceArgs, PolarityArg, StructureArgs};
+use crate::failure::Failure;
+use crate::input::Picture;
+use heatpath_core::grid::medium::Medium;
+use heatpath_core::grid::skeleton::{Graph, radii, thin};
+use heatpath_core::grid::{Grid, Sources, seeds, structure, structure_level};
+
+/// What extraction needs to begin.
+pub(crate) struct Structure<const D: usize> {
+    pub(crate) medium: Medium<D>,
+    pub(crate) sources: Sources<D>,
+    /// The squared speed from which on a cell is part of the structure.
+    pub(crate) least_speed_sq: f64,
+}
+
+impl<const D: usize> Structure<D> {
+    /// Takes the given sources or, if there are none, a seed in each long piece of the structure.
+    pub(crate) fn find(
+        picture: &Picture<'_, D>,
+        sources: &OptionalSourceArgs,
+        medium: &MediumArgs,
+        args: &StructureArgs,
+    ) -> Result<Self, Failure> {
+        let mut points = picture.optional_sources(sources)?;
+        let longest = picture.image.shape().longest_side() as f64;
+        let least_extent = args.extent.unwrap_or(longest / 16.0);
+        let compares = matches!(medium.medium, MediumArg::Conductivity | MediumArg::Combined);
+        if points.is_empty() && compares && medium.reference.is_none() {
+            // Tubes have seeds, and these the grey values to compare with.
+            let tubes = picture.medium(&tubes(medium), &[], args.threads)?;
+            points = seeds(&tubes, level(&tubes)?, least_extent);
+        }
+        let medium = picture.medium(medium, &points, args.threads)?;
+        let least_speed_sq = match args.structure {
+            Some(level) => level,
+            None => level(&medium)?,
+        };
+        if points.is_empty() {
+            points = seeds(&medium, least_speed_sq, least_extent);
+        }
+        if points.is_empty() {
+            return Err(Failure::no_answer(format!(
+                "no piece of the structure, where k D is {least_speed_sq:.4} or more, is \
+                 {least_extent:.1} pixels long: give a --source, or lower --extent or --structure"
+            )));
+        }
+        let sources = Sources::new(&points, medium.mask())?;
+        Ok(Self { medium, sources, least_speed_sq })
+    }
+
+    /// The cells of the structure.
+    pub(crate) fn cells(&self) -> Grid<bool, D> {
+        structure(&self.medium, self.least_speed_sq)
+    }
+
+    /// The graph of cells that were found, with the radii of the structure around them.
+    pub(crate) fn graph(&self, found: &Grid<bool, D>) -> Graph<D> {
+        let mut cells = self.cells();
+        cells.values_mut().iter_mut().zip(found.values()).for_each(|(cell, &found)| *cell |= found);
+        Graph::of_centreline(&thin(found), &radii(&cells))
+    }
+}
+
+/// The options of a medium of tubes in the same picture.
+fn tubes(medium: &MediumArgs) -> MediumArgs {
+    MediumArgs {
+        medium: MediumArg::Vesselness,
+        power: None,
+        floor: None,
+        polarity: medium.polarity.or(Some(PolarityArg::Both)),
+        ..medium.clone()
+    }
+}
+
+fn level<const D: usize>(medium: &Medium<D>) -> Result<f64, Failure> {
+    structure_level(medium).ok_or_else(|| {
+        Failure::no_answer(
+            "the medium is the same everywhere and shows no structure: choose another --medium",
+        )
+    })
+}
