@@ -1,10 +1,13 @@
-//! The paper's figures 1 to 6, 9 and 10 remade on generated pictures.
+//! The paper's figures 1 to 6, 9, 10 and 12 to 20 remade on generated pictures.
 //!
 //! Each test holds what the figure shows as a number, and the figure itself: the pictures in
 //! `docs/figures` are compared with what is drawn now. `HEATPATH_BLESS=1` draws them anew; a
 //! difference leaves a picture of three panels (expected, drawn, difference) beside the build.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+mod automatic;
+mod key_points;
+mod panels;
 mod paths;
 mod scenes;
 
@@ -13,8 +16,10 @@ use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, ConductivityOptions, Form, Medium, PeronaMalikOptions};
 use heatpath_core::grid::{Grid, Sources};
 use heatpath_io::colour::viridis;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{Rgb, RgbImage};
 use scenes::{ON_THE_CURVE, in_hexagon, is_on_the_curve, thin_line, thin_line_at, wide_curve};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// Heat below this part of the warmest point's is drawn as none: half a unit of f64's precision.
@@ -97,7 +102,12 @@ fn assert_figure(name: &str, panels: &[RgbImage]) {
     let drawn = beside(panels);
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/figures").join(name);
     if std::env::var_os("HEATPATH_BLESS").is_some() {
-        drawn.save(&file).unwrap();
+        let encoder = PngEncoder::new_with_quality(
+            File::create(&file).unwrap(),
+            CompressionType::Best,
+            FilterType::NoFilter,
+        );
+        drawn.write_with_encoder(encoder).unwrap();
         return;
     }
     let expected =

@@ -1,5 +1,6 @@
 //! The figures that show paths: 5, 6, 9 and 10.
 
+use super::panels::dot;
 use super::scenes::{
     CENTRE, CURVE_ENDS, TUBE, U_ENDS, around, clean_curve, gaussian, noisy_curve,
     off_the_noisy_curve, spiral, spiral_ends, u_tube,
@@ -82,18 +83,6 @@ fn detail_panel(image: &Grid<f64, 2>, path: &Path<2>, corner: [u32; 2]) -> RgbIm
         dot(&mut drawn, pixel, 2, [230, 20, 30]);
     }
     drawn
-}
-
-/// A square dot, cut off at the border.
-fn dot(panel: &mut RgbImage, pixel: [f64; 2], side: i64, colour: [u8; 3]) {
-    let [left, top] = pixel.map(|part| part.round() as i64 - side / 2);
-    for (x, y) in (0..side * side).map(|i| (left + i % side, top + i / side)) {
-        if let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y))
-            && let Some(pixel) = panel.get_pixel_mut_checked(x, y)
-        {
-            *pixel = Rgb(colour);
-        }
-    }
 }
 
 /// Distances from yellow (0) to dark blue, and a black line every twelfth of the largest.

@@ -158,3 +158,111 @@ fn random(seed: u64) -> impl FnMut() -> f64 {
         (state >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
+
+// === Trees and curves with known centrelines
+
+/// A tube around the line through `points`, at most two pixels apart.
+pub(crate) struct Tube {
+    pub(crate) points: Vec<[f64; 2]>,
+    half_width: f64,
+}
+
+impl Tube {
+    /// The tube around the line `at(s)` for s from 0 to 1.
+    fn new(half_width: f64, at: impl Fn(f64) -> [f64; 2]) -> Self {
+        Self { points: (0..=400).map(|i| at(f64::from(i) / 400.0)).collect(), half_width }
+    }
+
+    /// A point's distance from the tube's wall, negative inside.
+    fn outside(&self, [x, y]: [f64; 2]) -> f64 {
+        let from = |&[a, b]: &[f64; 2]| (x - a).powi(2) + (y - b).powi(2);
+        self.points.iter().map(from).fold(f64::INFINITY, f64::min).sqrt() - self.half_width
+    }
+}
+
+/// A picture with the tubes in it.
+pub(crate) struct Scene {
+    pub(crate) image: Grid<f64, 2>,
+    pub(crate) tubes: Vec<Tube>,
+    /// The distance of each cell from the nearest tube's wall, negative inside.
+    pub(crate) outside: Grid<f64, 2>,
+}
+
+impl Scene {
+    /// The picture whose grey value at a point is that of `grey` for the part of the cell in a tube.
+    fn new(tubes: Vec<Tube>, mut grey: impl FnMut(f64, f64, f64) -> f64) -> Self {
+        let nearest = |x, y| tubes.iter().map(|t| t.outside([x, y])).fold(f64::INFINITY, f64::min);
+        let outside = draw(nearest);
+        let image = Grid::from_fn(*outside.shape(), |[x, y]| {
+            let part = (0.5 - outside[[x, y]]).clamp(0.0, 1.0);
+            grey(x as f64, y as f64, part).clamp(0.0, 1.0)
+        });
+        Self { image, tubes, outside }
+    }
+}
+
+/// A bent branch from `start` and those into which it forks, in the order in which they grow.
+fn branches(start: [f64; 2], angle: f64, length: f64, half_width: f64, forks: u32) -> Vec<Tube> {
+    let bend = if forks.is_multiple_of(2) { 0.25 } else { -0.25 };
+    let at = |s: f64| {
+        // The mean heading from the start to there, as of an arc.
+        let (chord, heading) = (s * length, angle + 0.5 * bend * s);
+        [start[0] + chord * heading.cos(), start[1] - chord * heading.sin()]
+    };
+    let mut tubes = vec![Tube::new(half_width, at)];
+    if forks > 0 {
+        for turn in [-0.55, 0.5] {
+            let (shorter, thinner) = (0.75 * length, 0.8 * half_width);
+            tubes.extend(branches(at(1.0), angle + bend + turn, shorter, thinner, forks - 1));
+        }
+    }
+    tubes
+}
+
+/// The root of the tree.
+pub(crate) const ROOT: [f64; 2] = [150.0, 285.0];
+
+/// A tree of 15 branches, the trunk nine pixels wide, with a little noise.
+pub(crate) fn tree() -> Scene {
+    let mut random = random(1);
+    let tubes = branches([150.0, 290.0], 0.5 * PI, 85.0, 4.5, 3);
+    Scene::new(tubes, |_, _, part| 0.2 + 0.6 * part + 0.1 * (random() - 0.5))
+}
+
+/// The root of the vessels.
+pub(crate) const VESSEL_ROOT: [f64; 2] = [130.0, 285.0];
+
+/// Bright vessels, two trees and two more that cross them, on a ground with texture and noise.
+pub(crate) fn vessels() -> Scene {
+    let mut random = random(2);
+    let mut tubes = branches([130.0, 290.0], 0.45 * PI, 90.0, 4.0, 3);
+    tubes.extend(branches([8.0, 215.0], 0.1, 95.0, 3.0, 2));
+    tubes.push(Tube::new(2.0, |s| [20.0 + 265.0 * s, 120.0 - 50.0 * (4.0 * s).sin()]));
+    tubes.push(Tube::new(1.6, |s| [225.0 + 30.0 * (3.0 * s).sin(), 20.0 + 250.0 * s]));
+    Scene::new(tubes, |x, y, part| {
+        let texture =
+            (x / 9.0 + 2.0 * (y / 31.0).sin()).sin() * (y / 13.0 + (x / 23.0).sin()).cos();
+        0.25 + 0.06 * texture + 0.4 * part + 0.2 * (random() - 0.5)
+    })
+}
+
+/// A point of the catheter, s from 0 to 1.
+fn catheter_at(s: f64) -> [f64; 2] {
+    let t = 7.2 * s - 3.6;
+    [150.0 + 30.0 * t - 70.0 * t.sin(), 165.0 - 90.0 * t.cos()]
+}
+
+/// The source on the catheter.
+pub(crate) fn on_the_catheter() -> [f64; 2] {
+    catheter_at(0.35)
+}
+
+/// A thin dark curve with a loop, over broad dark bands and noise.
+pub(crate) fn catheter() -> Scene {
+    let mut random = random(3);
+    Scene::new(vec![Tube::new(1.5, catheter_at)], |x, y, part| {
+        let bands = ((0.9 * y + 0.3 * x + 8.0 * (x / 40.0).sin()) / 11.0).sin();
+        let lungs = if (x - 150.0).abs() < 55.0 { -0.12 } else { 0.0 };
+        0.6 + 0.08 * bands + lungs - 0.3 * part + 0.24 * (random() - 0.5)
+    })
+}
