@@ -102,7 +102,7 @@ pub(crate) struct VoteArgs {
     /// structure.
     #[arg(long, help_heading = "Votes")]
     pub(crate) no_growth: bool,
-    /// The longest way outside of the structure that a curve may bridge, in pixels [default: 8].
+    /// The longest way outside of the structure that a curve may bridge, in pixels [default: 6].
     #[arg(
         long,
         value_name = "GAP",

@@ -143,6 +143,6 @@ fn what_cannot_be_found_is_said() {
     }
     bench.fails("vote fork.npy --gap -1 -o x.json", 2, &["gap", "-1"]);
     bench.fails("vote fork.npy --density x.npy -o x.npy", 2, &["two files"]);
-    bench.fails("vote fork.npy --no-growth --gap 3 -o x.json", 2, &["--gap"]);
+    bench.fails("vote fork.npy --margin -1 --mask truth.npy -o x.json", 2, &["--margin", "-1"]);
     bench.fails("keypoints fork.npy --radius 1 -o x.json", 2, &["radius", "1"]);
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
 use heatpath_core::grid::Shape;
+use heatpath_core::grid::keypoints::KeyPoint;
 use heatpath_core::grid::path::{Ending, Path};
 use heatpath_io::{
     Curves, ReadError, WriteError, curves_json, read_points, read_points_from_bytes, write_curves,
@@ -235,4 +236,17 @@ proptest! {
         let _ = read_points_from_bytes::<2>(text.as_bytes(), "points");
         let _ = read_points_from_bytes::<3>(text.as_bytes(), "points");
     }
+}
+
+#[test]
+fn key_points_stand_beside_their_paths() {
+    let key_point = |point, parent| KeyPoint { point, parent, ln_temperature: None };
+    let curves = Curves {
+        key_points: vec![key_point([0.0, 0.0], None), key_point([3.0, 4.0], Some(0))],
+        ..some_curves()
+    };
+    let value = curves_json(&curves);
+    assert_eq!(value["keypoints"][0]["parent"], Value::Null);
+    assert_eq!(value["keypoints"][1], serde_json::json!({ "point": [3.0, 4.0], "parent": 0 }));
+    assert!(curves_json(&some_curves()).get("keypoints").is_none());
 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 
+use heatpath_core::grid::keypoints::KeyPoint;
 use heatpath_core::grid::path::{Ending, Path};
 use heatpath_core::grid::{Grid, Shape};
 use heatpath_io::colour::{NOT_FINITE, viridis};
@@ -97,8 +98,10 @@ fn curves_ends_and_sources_are_drawn() {
     let open = path(&[[50.0, 150.0], [350.0, 150.0]], Ending::StepLimit);
     let lone = path(&[[200.0, 250.0]], Ending::Unreachable);
     let paths = [done, open, lone];
-    let image =
-        drawn_overlay(&picture, &Overlay { paths: &paths, sources: &[[30.0, 280.0]], field: None });
+    let image = drawn_overlay(
+        &picture,
+        &Overlay { paths: &paths, sources: &[[30.0, 280.0]], ..Overlay::default() },
+    );
     assert_eq!((image.width(), image.height()), (400, 300));
     let at = |x, y| image.get_pixel(x, y).0;
     assert_eq!(at(200, 20), [128; 3]);
@@ -114,6 +117,20 @@ fn curves_ends_and_sources_are_drawn() {
         let [r, g, b] = at(source.0, source.1);
         assert!(r > 200 && g < 60 && b < 60, "the source at {source:?}");
     }
+}
+
+#[test]
+fn pieces_have_no_dots_but_key_points_are_yellow() {
+    let key_point = KeyPoint { point: [200.0, 50.0], parent: None, ln_temperature: None };
+    let paths = [path(&[[50.0, 50.0], [350.0, 50.0]], Ending::Source(0))];
+    let layers =
+        Overlay { paths: &paths, are_pieces: true, key_points: &[key_point], ..Overlay::default() };
+    let image = drawn_overlay(&grey([400, 300], 0.5), &layers);
+    let at = |x, y| image.get_pixel(x, y).0;
+    let [r, g, b] = at(200, 50);
+    assert!(r > 240 && g > 200 && b < 60, "yellow: {:?}", at(200, 50));
+    assert_ne!(at(50, 50), [255; 3], "no dot at the end");
+    assert!(at(350, 50)[0] < 60, "and no cross: {:?}", at(350, 50));
 }
 
 #[test]

@@ -10,10 +10,10 @@ use serde_json::Value;
 use std::fs;
 use tempfile::tempdir;
 
-fn written<const D: usize>(ending: &str, graph: &Graph<D>, root: Option<[f64; D]>) -> String {
+fn written<const D: usize>(ending: &str, graph: &Graph<D>, seeds: &[[f64; D]]) -> String {
     let folder = tempdir().unwrap();
     let file = folder.path().join(format!("graph.{ending}"));
-    write_graph(&file, None, false, graph, root).unwrap();
+    write_graph(&file, None, false, graph, seeds).unwrap();
     fs::read_to_string(file).unwrap()
 }
 
@@ -38,7 +38,7 @@ fn lengths<const D: usize>(curves: &[Vec<[f64; D]>], shape: &Shape<D>) -> f64 {
 fn json_and_csv_have_the_documented_layout() {
     let graph = loop_and_line();
     assert_eq!((graph.nodes.len(), graph.branches.len()), (4, 3));
-    let text = written("json", &graph, None);
+    let text = written("json", &graph, &[]);
     let value: Value = serde_json::from_str(&text).unwrap();
     let again: Value = serde_json::from_str(&graph_json(&graph, &[]).to_string()).unwrap();
     assert_eq!(value, again);
@@ -49,13 +49,21 @@ fn json_and_csv_have_the_documented_layout() {
         assert_eq!(entry["tortuosity"].as_f64().is_some(), branch.tortuosity.is_finite());
         assert_eq!(entry["radii"].as_array().unwrap().len(), branch.points.len());
     }
+    assert!(value["paths"].as_array().unwrap().iter().all(|path| path["ended"] == "unreachable"));
+    let seeds = [graph.nodes[0].point];
+    let value = graph_json(&graph, &seeds);
+    let piece = |number: &Value| number.as_u64().map(|number| number as usize);
+    for path in value["paths"].as_array().unwrap() {
+        let is_first = piece(&path["from"]) == Some(0) || piece(&path["to"]) == Some(0);
+        assert!(!is_first || (path["ended"] == "source" && path["source"] == 0), "{path}");
+    }
     let curves = read(&text, [0.5, 2.0]);
     for (curve, branch) in curves.iter().zip(&graph.branches) {
         assert_eq!(curve.len(), branch.points.len());
         let mut pairs = curve.iter().flatten().zip(branch.points.iter().flatten());
         assert!(pairs.all(|(a, b)| (a - b).abs() < 1e-12));
     }
-    let csv = written("csv", &graph, None);
+    let csv = written("csv", &graph, &[]);
     let head =
         "branch,from,to,length,physical_length,tortuosity,mean_radius,from_x,from_y,to_x,to_y";
     assert_eq!(csv.lines().next().unwrap(), head);
@@ -66,7 +74,7 @@ fn json_and_csv_have_the_documented_layout() {
 #[test]
 fn swc_is_rooted_cuts_loops_and_keeps_the_length() {
     let graph = loop_and_line();
-    let text = written("swc", &graph, Some([30.0, 12.0]));
+    let text = written("swc", &graph, &[[30.0, 12.0]]);
     let rows: Vec<Vec<f64>> = text
         .lines()
         .filter(|line| !line.starts_with('#'))
@@ -87,7 +95,7 @@ fn swc_is_rooted_cuts_loops_and_keeps_the_length() {
 #[test]
 fn vtp_has_as_many_points_as_it_says() {
     let graph = loop_and_line();
-    let text = written("vtp", &graph, None);
+    let text = written("vtp", &graph, &[]);
     let points: usize = graph.branches.iter().map(|branch| branch.points.len()).sum();
     assert!(text.contains(&format!("NumberOfPoints=\"{points}\" NumberOfLines=\"3\"")), "{text}");
     let numbers = |name: &str| {
@@ -173,7 +181,7 @@ proptest! {
             state >> 62 == 0
         });
         let graph = Graph::of_mask(&mask);
-        let curves = read(&written("swc", &graph, None), shape.spacing());
+        let curves = read(&written("swc", &graph, &[]), shape.spacing());
         let (whole, back) = (graph.physical_length(), lengths(&curves, &shape));
         prop_assert!(back <= whole + 1e-9);
         let circles = graph.branches.len() as f64 * 4.0;

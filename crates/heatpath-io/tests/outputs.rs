@@ -5,7 +5,7 @@
 use heatpath_core::grid::{Grid, Shape};
 use heatpath_io::{
     FieldFormat, FieldStyle, Overlay, WriteError, check_dimension, check_output, info, read_field,
-    write_atomically, write_field, write_overlay,
+    read_mask, write_atomically, write_field, write_mask, write_overlay,
 };
 use std::fs;
 use std::io::{self, Write};
@@ -171,4 +171,24 @@ fn volumes_are_not_drawn() {
     let error = write_overlay(at("a.png"), false, &volume, &Overlay::default()).unwrap_err();
     assert!(matches!(error, WriteError::Volume { .. }), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn masks_come_back_in_every_format() {
+    let folder = tempdir().unwrap();
+    let picture = Grid::from_fn(Shape::new([7, 5]).unwrap(), |[x, y]| x > 2 * y);
+    for ending in ["png", "npy", "tif"] {
+        let path = folder.path().join(format!("mask.{ending}"));
+        write_mask(&path, None, false, &picture).unwrap();
+        assert_eq!(read_mask(&path, [1.0; 2]).unwrap().open(), &picture, "{ending}");
+        assert!(write_mask(&path, None, false, &picture).is_err(), "it exists");
+    }
+    let pixels = image::open(folder.path().join("mask.png")).unwrap().into_luma8();
+    assert_eq!((pixels.get_pixel(1, 0).0, pixels.get_pixel(0, 0).0), ([255], [0]));
+    let volume = Grid::from_fn(Shape::new([4, 3, 2]).unwrap(), |[x, _, z]| x > z);
+    let path = folder.path().join("volume.tif");
+    write_mask(&path, None, false, &volume).unwrap();
+    assert_eq!(read_mask(&path, [1.0; 3]).unwrap().open(), &volume);
+    let png = folder.path().join("volume.png");
+    assert!(matches!(write_mask(png, None, false, &volume), Err(WriteError::Volume { .. })));
 }

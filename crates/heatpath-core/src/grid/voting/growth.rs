@@ -32,11 +32,11 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Growth in cells of at least this squared speed, across gaps of 8 cells, where at least 10
+    /// Growth in cells of at least this squared speed, across gaps of 6 cells, where at least 10
     /// cells lie beyond.
     #[must_use]
     pub const fn new(least_speed_sq: f64) -> Self {
-        Self { least_speed_sq, gap: 8.0, least_votes: 10 }
+        Self { least_speed_sq, gap: 6.0, least_votes: 10 }
     }
 
     pub(super) fn check(&self) -> Result<(), VotingError> {
