@@ -123,7 +123,12 @@ pub(crate) struct VoteArgs {
     /// front, multiple: 240].
     #[arg(long, value_name = "LN", allow_negative_numbers = true, help_heading = "Votes")]
     pub(crate) level: Option<f64>,
-    /// The steps of heat before each vote [default: twice the longest side for the front, else 100].
+    /// Votes end when more than this part of the kept pixels was kept before [default: 0.99; with
+    /// --no-growth 0.95].
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "Votes")]
+    pub(crate) settled: Option<f64>,
+    /// The steps of heat before each vote [default: twice the longest side for the front, 100 for
+    /// multiple and with --no-growth, else 200].
     #[arg(long, value_name = "N", help_heading = "Votes")]
     pub(crate) iterations: Option<usize>,
     /// Branches that end in the open are cut if they are shorter than this, in physical units, or than

@@ -93,6 +93,7 @@ impl Approach {
                 steps: args.iterations,
                 threshold: args.threshold,
                 level: args.level,
+                settled_share: args.settled,
                 growth: (!args.no_growth).then_some(growth),
                 ..VotingOptions::default()
             })

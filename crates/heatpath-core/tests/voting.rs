@@ -534,7 +534,7 @@ fn bad_parameters_are_named() {
         (VotingOptions { level: Some(0.0), ..fine }, "level is 0;"),
         (VotingOptions { level: Some(f64::INFINITY), ..fine }, "level is inf;"),
         (VotingOptions { largest_share: -0.1, ..fine }, "largest_share is -0.1;"),
-        (VotingOptions { settled_share: 1.1, ..fine }, "settled_share is 1.1;"),
+        (VotingOptions { settled_share: Some(1.1), ..fine }, "settled_share is 1.1;"),
         (VotingOptions { rounds: 0, ..fine }, "rounds is 0;"),
         (VotingOptions { steps: Some(0), ..fine }, "the number of iterations is 0.0;"),
         (VotingOptions { growth: growth(0.0, 1.0), ..fine }, "least_speed_sq is 0;"),

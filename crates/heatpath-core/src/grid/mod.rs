@@ -1,8 +1,9 @@
 //! Images (2-D) and volumes (3-D).
 //!
 //! The rooms stand in the order in which data passes through them: a [`Grid`] of grey values
-//! becomes a [`medium`], the medium carries [`heat`], the heat is read as a [`distance`], and a
-//! [`path`] descends to a source.
+//! becomes a [`medium`], the medium carries [`heat`], the heat is read as a [`distance`], a
+//! [`path`] descends to a source, and by [`voting`] or [`keypoints`] paths find a structure, of which a
+//! [`skeleton`] makes a graph.
 
 pub mod bridge;
 pub mod distance;

@@ -64,8 +64,9 @@ pub struct VotingOptions {
     /// lines of a retina are that share of its picture.
     pub largest_share: f64,
     /// Voting stops when more than this share of the kept cells was kept before (Algorithm 1).
-    /// From 0 to 1; default 0.95.
-    pub settled_share: f64,
+    /// From 0 to 1; `None`, the default, takes the paper's 0.95, and 0.99 with [`Growth`]: of a large tree
+    /// many branches have ended when one still grows, which is then few of the cells.
+    pub settled_share: Option<f64>,
     /// The most rounds, at least 1; default 100. The front has one.
     pub rounds: usize,
     /// How paths are counted; `None`, the default, takes [`Counting::Flow`] with [`Growth`], which
@@ -83,7 +84,7 @@ impl Default for VotingOptions {
             threshold: None,
             level: None,
             largest_share: 1.0 / 30.0,
-            settled_share: 0.95,
+            settled_share: None,
             rounds: 100,
             counting: None,
             growth: None,
@@ -99,7 +100,8 @@ impl VotingOptions {
         if !(level.is_finite() && level > 0.0) {
             return parameter("level", level, "a positive finite number");
         }
-        let shares = [("largest_share", self.largest_share), ("settled_share", self.settled_share)];
+        let shares =
+            [("largest_share", self.largest_share), ("settled_share", self.settled_share())];
         if let Some(&(name, value)) = shares.iter().find(|(_, share)| !(0.0..=1.0).contains(share))
         {
             return parameter(name, value, "from 0 to 1");
@@ -108,6 +110,10 @@ impl VotingOptions {
             return parameter("rounds", 0.0, "at least 1");
         }
         self.growth.as_ref().map_or(Ok(()), Growth::check)
+    }
+
+    pub(super) fn settled_share(&self) -> f64 {
+        self.settled_share.unwrap_or(if self.growth.is_some() { 0.99 } else { 0.95 })
     }
 
     pub(super) fn level(&self) -> f64 {

@@ -83,7 +83,7 @@ impl<'a, const D: usize> Tally<'a, D> {
         let &Round { kept, new, .. } = self.rounds.last()?;
         if options.growth.is_none() && kept as f64 > options.largest_share * self.open as f64 {
             Some(Stop::LargestShare)
-        } else if (kept - new) as f64 > options.settled_share * kept as f64 {
+        } else if (kept - new) as f64 > options.settled_share() * kept as f64 {
             Some(Stop::Settled)
         } else {
             (self.rounds.len() >= options.most_rounds()).then_some(Stop::Rounds)
