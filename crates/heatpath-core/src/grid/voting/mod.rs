@@ -75,7 +75,7 @@ pub struct Round {
 pub enum Stop {
     /// A larger share of the picture was kept than [`VotingOptions::largest_share`].
     LargestShare,
-    /// The new cells were a smaller part of all kept ones than [`VotingOptions::settled_share`] asks
+    /// The new cells were a smaller part of all kept ones than `settled_share` asks
     /// for.
     Settled,
     /// These were all rounds: one of [`Method::Front`], [`VotingOptions::rounds`] of the others.
