@@ -1,8 +1,9 @@
 //! Pictures of the retina with an observer's centrelines.
 
 use crate::Failure;
-use heatpath_core::grid::filter::gaussian;
-use heatpath_core::grid::{Grid, Mask, Shape};
+use heatpath_core::Exec;
+use heatpath_core::grid::filter::normalize_contrast;
+use heatpath_core::grid::{Grid, Mask};
 use heatpath_io::{Channel, PictureOptions, read_mask, read_picture};
 use std::fs;
 use std::path::Path;
@@ -33,23 +34,20 @@ pub(crate) const SETS: [DataSet; 2] = [
     },
 ];
 
-/// A picture at half size.
+/// A picture.
 #[derive(Debug)]
 pub(crate) struct Picture {
     pub(crate) chosen_by: bool,
     /// The negative of the green channel, in which vessels are bright.
     pub(crate) grey: Grid<f64, 2>,
-    /// The same, relative to its surroundings.
+    /// The same, relative to its surroundings in view.
     pub(crate) contrast: Grid<f64, 2>,
-    /// The first observer's centrelines, in full size.
+    /// The first observer's centrelines.
     pub(crate) centrelines: Mask<2>,
 }
 
-/// The standard deviation of the surroundings, in cells of the halved picture.
-const SURROUNDINGS: f64 = 20.0;
-
-/// What is added to the deviation of grey values, so that flat parts do not become noise.
-const LEAST_DEVIATION: f64 = 0.01;
+/// The standard deviation of the surroundings, in pixels.
+const SURROUNDINGS: f64 = 15.0;
 
 impl DataSet {
     /// The names of the pictures, in order.
@@ -63,46 +61,18 @@ impl DataSet {
         Ok(names)
     }
 
-    pub(crate) fn read(&self, data: &Path, name: &str) -> Result<Picture, Failure> {
+    pub(crate) fn read(&self, data: &Path, name: &str, exec: &Exec) -> Result<Picture, Failure> {
         let folder = data.join(self.folder);
         let options = PictureOptions { channel: Channel::Green, ..PictureOptions::default() };
         let image = folder.join("images").join(format!("{name}.{}", self.ending));
         let green = read_picture::<2>(image, &options)?;
         let mask = |part: &str| read_mask(folder.join(part).join(format!("{name}.png")), [1.0; 2]);
-        let view = mask("fov_png")?;
-        let grey = halved(&green.map(|value| 1.0 - value))?;
-        let view = halved(&view.open().map(|&open| f64::from(u8::from(open))))?;
+        let grey = green.map(|value| 1.0 - value);
         Ok(Picture {
             chosen_by: self.chosen_by.iter().any(|beginning| name.starts_with(beginning)),
-            contrast: contrast(&grey, &view.map(|&share| f64::from(u8::from(share == 1.0))))?,
+            contrast: normalize_contrast(&grey, SURROUNDINGS, &mask("fov_png")?, exec)?,
             grey,
             centrelines: mask("centerline")?,
         })
     }
-}
-
-/// The means of two by two cells; the last row and column may have fewer.
-fn halved(image: &Grid<f64, 2>) -> Result<Grid<f64, 2>, Failure> {
-    let size = image.shape().size();
-    let shape = Shape::new(size.map(|n| n.div_ceil(2)))?;
-    Ok(Grid::from_fn(shape, |[x, y]| {
-        let rows = 2 * y..(2 * y + 2).min(size[1]);
-        let cells = rows.flat_map(|y| (2 * x..(2 * x + 2).min(size[0])).map(move |x| [x, y]));
-        let (sum, count) = cells.fold((0.0, 0.0), |(sum, n), cell| (sum + image[cell], n + 1.0));
-        sum / count
-    }))
-}
-
-/// The difference from the mean of the surroundings in view, over the deviation there; 0 out of view.
-fn contrast(grey: &Grid<f64, 2>, view: &Grid<f64, 2>) -> Result<Grid<f64, 2>, Failure> {
-    let shape = *grey.shape();
-    let weights = gaussian(view, SURROUNDINGS)?;
-    let mean = |values: &Grid<f64, 2>| -> Result<Grid<f64, 2>, Failure> {
-        let sums = gaussian(&Grid::from_fn(shape, |i| values[i] * view[i]), SURROUNDINGS)?;
-        Ok(Grid::from_fn(shape, |i| if view[i] > 0.0 { sums[i] / weights[i] } else { 0.0 }))
-    };
-    let means = mean(grey)?;
-    let differences = Grid::from_fn(shape, |i| (grey[i] - means[i]) * view[i]);
-    let variances = mean(&differences.map(|difference| difference * difference))?;
-    Ok(Grid::from_fn(shape, |i| differences[i] / (variances[i].sqrt() + LEAST_DEVIATION)))
 }

@@ -1,21 +1,24 @@
 //! Paths along an observer's vessels of the retina, by every medium and readout: tables in Markdown.
 //!
-//! `cargo run --release -p heatpath-benches --bin paths -- DATA [MEDIUM] [SOURCES]`, where the folder
-//! DATA holds `retina_chase` and `retina_stare`, each with `images`, `centerline` and `fov_png`. Rows
-//! are those whose medium's name begins with MEDIUM, by default all; SOURCES is the largest number of
-//! sources in a picture. What is measured and what comes out stands in `docs/extraction.md`.
+//! `cargo run --release -p heatpath-benches --bin paths -- DATA [MEDIUM] [SOURCES] [LENGTH]`, where the
+//! folder DATA holds `retina_chase` and `retina_stare`, each with `images`, `centerline` and `fov_png`.
+//! Rows are those whose medium's name begins with MEDIUM, by default all; SOURCES is the number of
+//! sources in a picture, by default 1, and LENGTH that of the ways in pixels, by default 200. What is
+//! measured and what comes out stands in `docs/extraction.md`.
 #![allow(clippy::print_stdout, reason = "the tables are what this program is for")]
 
 mod data;
 mod methods;
 mod pairs;
+mod readouts;
 
 use data::{DataSet, Picture, SETS};
 use heatpath_core::Exec;
 use heatpath_core::evaluation::{CurveSet, evaluate};
 use heatpath_core::grid::heat::HeatError;
-use methods::{Kind, Readout, Traced, to_half};
+use methods::Kind;
 use pairs::{Ways, ways};
+use readouts::{Readout, Traced, Window};
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::Mutex;
@@ -25,11 +28,8 @@ use std::{env, thread};
 
 type Failure = Box<dyn Error + Send + Sync>;
 
-/// In pixels of the full size.
+/// In pixels.
 const TOLERANCES: [f64; 3] = [1.0, 2.0, 3.0];
-
-/// The length of ways in pixels, and how many sources a picture has.
-const LENGTHS: [(f64, usize); 2] = [(200.0, 8), (380.0, 4)];
 
 /// How straight ways are: the distance of their ends over their length.
 const STRAIGHTNESS: f64 = 0.7;
@@ -37,17 +37,16 @@ const STRAIGHTNESS: f64 = 0.7;
 fn main() -> Result<(), Failure> {
     let data = PathBuf::from(env::args().nth(1).ok_or("the data's folder is missing")?);
     let medium = env::args().nth(2).unwrap_or_default();
-    let most = env::args().nth(3).map_or(Ok(usize::MAX), |count| count.parse())?;
+    let sources = env::args().nth(3).map_or(Ok(1), |count| count.parse())?;
+    let length = env::args().nth(4).map_or(Ok(200.0), |length| length.parse())?;
     let mut rows = methods::all();
     rows.retain(|(kind, _)| kind.name().starts_with(&medium));
     for set in SETS {
-        let names = set.names(&data)?;
-        for (length, sources) in LENGTHS {
-            let parts = in_parallel(&names, |name| {
-                of_picture(&set.read(&data, name)?, length, sources.min(most), &rows)
-            })?;
-            print_table(&set, length, &rows, &parts);
-        }
+        let parts = in_parallel(&set.names(&data)?, |name| {
+            let exec = Exec::single_threaded();
+            of_picture(&set.read(&data, name, &exec)?, length, sources, &rows, &exec)
+        })?;
+        print_table(&set, length, &rows, &parts);
     }
     Ok(())
 }
@@ -85,42 +84,38 @@ fn of_picture(
     length: f64,
     sources: usize,
     rows: &[(Kind, Readout)],
+    exec: &Exec,
 ) -> Result<Part, Failure> {
     let ways = ways(&picture.centrelines, length, sources, STRAIGHTNESS);
-    let exec = Exec::single_threaded();
-    let tallies = rows.iter().map(|&(kind, readout)| tally(picture, &ways, kind, readout, &exec));
-    Ok((picture.chosen_by, tallies.collect::<Result<_, _>>()?))
+    let mut tallies = Vec::new();
+    for rows in rows.chunk_by(|a, b| a.0 == b.0) {
+        tallies.extend(of_medium(picture, &ways, length, rows, exec)?);
+    }
+    Ok((picture.chosen_by, tallies))
 }
 
-fn tally(
+/// What is found by `rows` of the same medium.
+fn of_medium(
     picture: &Picture,
     ways: &[Ways],
-    kind: Kind,
-    readout: Readout,
+    length: f64,
+    rows: &[(Kind, Readout)],
     exec: &Exec,
-) -> Result<Tally, Failure> {
-    let mut tally = Tally::default();
-    let groups = if kind.depends_on_source() { ways.chunks(1) } else { ways.chunks(ways.len()) };
-    for group in groups {
-        let start = Instant::now();
-        let reference = picture.grey.sample(to_half(group[0].source));
+) -> Result<Vec<Tally>, Failure> {
+    let mut tallies = vec![Tally::default(); rows.len()];
+    let kind = rows[0].0;
+    let groups = if kind.depends_on_source() { 1 } else { ways.len().max(1) };
+    for ways in ways.chunks(groups) {
+        let reference = picture.grey.sample(ways[0].source);
         let medium = kind.medium(picture, &[reference], exec)?;
-        let traced = match readout.paths(&medium, group, exec) {
-            // The medium is too slow for explicit heat: its paths are lost, and other rows go on.
-            Err(error) if matches!(error.downcast_ref(), Some(HeatError::Range)) => {
-                Traced::none(group)
+        for ways in ways {
+            let window = Window::new(&medium, ways, length);
+            for (&(_, readout), tally) in rows.iter().zip(&mut tallies) {
+                tally.add_ways(&window, ways, readout, exec)?;
             }
-            traced => traced?,
-        };
-        tally.time += start.elapsed();
-        tally.sources += group.len();
-        tally.lost += traced.lost;
-        let truths = group.iter().flat_map(|ways| &ways.truths);
-        for (path, truth) in traced.paths.iter().zip(truths) {
-            tally.add(path, truth)?;
         }
     }
-    Ok(tally)
+    Ok(tallies)
 }
 
 /// Lengths in pixels, summed up over paths.
@@ -137,6 +132,27 @@ struct Tally {
 }
 
 impl Tally {
+    fn add_ways(
+        &mut self,
+        window: &Window,
+        ways: &Ways,
+        readout: Readout,
+        exec: &Exec,
+    ) -> Result<(), Failure> {
+        let start = Instant::now();
+        let traced = match readout.paths(window, ways, exec) {
+            // The medium is too slow for explicit heat: its paths are lost, and other rows go on.
+            Err(error) if matches!(error.downcast_ref(), Some(HeatError::Range)) => {
+                Traced::none(ways)
+            }
+            traced => traced?,
+        };
+        self.time += start.elapsed();
+        self.sources += 1;
+        self.lost += traced.lost;
+        traced.paths.iter().zip(&ways.truths).try_for_each(|(path, truth)| self.add(path, truth))
+    }
+
     fn add(&mut self, path: &[[f64; 2]], truth: &[[f64; 2]]) -> Result<(), Failure> {
         let [path, truth] = [path, truth].map(|points| CurveSet::of_polylines(&[points], [1.0; 2]));
         let found = evaluate(&path?, &truth?, &TOLERANCES, None)?;
@@ -167,6 +183,9 @@ impl Tally {
 
     /// Recall and precision in per cent.
     fn scores(&self, tolerance: usize) -> String {
+        if self.paths == 0 {
+            return "no paths".into();
+        }
         let [truth, path] = self.within[tolerance];
         format!("{:.1} / {:.1}", 100.0 * truth / self.truth, 100.0 * path / self.path)
     }

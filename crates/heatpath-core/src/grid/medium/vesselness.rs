@@ -21,8 +21,6 @@ pub struct VesselnessOptions {
     pub anisotropy: f64,
     /// How soon the anisotropy falls where the response does: the q of `A v^q`. From 0, where all
     /// responses above 0 have the anisotropy A; default 1.
-    ///
-    /// Responses of thin vessels are a tenth of the largest: with a power of 1 their medium is isotropic.
     pub anisotropy_power: f64,
 }
 
