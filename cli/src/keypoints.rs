@@ -7,20 +7,13 @@ use crate::output;
 use crate::run::run;
 use crate::structure::Structure;
 use heatpath_core::Exec;
-use heatpath_core::grid::half_width;
 use heatpath_core::grid::keypoints::{
     KeyPointOptions, KeyPoints, LengthOptions, Stop, key_points, key_points_by_length,
 };
 use heatpath_io::{
-    Curves, FieldStyle, ImageFile, Overlay, curves_json, write_curves, write_field, write_overlay,
+    Curves, FieldStyle, ImageFile, Overlay, check_dimension, curves_json, write_curves,
+    write_field, write_overlay,
 };
-
-/// All of a path must run in the structure, also where that is faint: in pixels of at least this part of
-/// the k D from which on a pixel is certain to belong to it.
-const FAINT: f64 = 0.5;
-
-/// The radius of circles in multiples of the structure's half width, and its limits in cells.
-const RADIUS: (f64, f64, f64) = (4.0, 10.0, 30.0);
 
 pub(crate) fn keypoints(args: &KeyPointsArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
@@ -34,12 +27,14 @@ pub(crate) fn keypoints(args: &KeyPointsArgs) -> Result<(), Failure> {
 
 fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result<(), Failure> {
     output::check_dimension(args.output.as_deref(), &args.out, D)?;
-    output::check_dimension(args.travelling.as_deref(), &args.out, D)?;
+    if let Some(file) = &args.travelling {
+        check_dimension(file, None, D)?;
+    }
     let picture = Picture::<D>::new(&args.picture, file)?;
     let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
-    let radius = radius(args, &found);
+    let options = options(args, &found);
     let found_points = run("key points", (args.structure.threads, args.out.quiet), |exec| {
-        search(args, &found, radius, exec)
+        search(args.method, &found, &options, exec)
     })?;
     // === Write
     let shape = picture.image.shape();
@@ -67,40 +62,36 @@ fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result
     if args.out.json {
         output::print_json(&curves_json(&curves))?;
     }
-    output::tell(&args.out, &line(&found_points, &curves, found.sources.points().len(), radius));
+    output::tell(
+        &args.out,
+        &line(&found_points, &curves, found.sources.points().len(), options.radius),
+    );
     Ok(())
 }
 
-/// The radius of circles in cells: as asked, or as wide as the structure asks for.
-fn radius<const D: usize>(args: &KeyPointsArgs, found: &Structure<D>) -> f64 {
-    let unit = found.medium.shape().smallest_spacing();
-    let (widths, least, most) = RADIUS;
-    let usual = || half_width(&found.cells()).map_or(most, |half| widths * half / unit);
-    args.radius.unwrap_or_else(|| usual().clamp(least, most))
+/// What is not asked for comes from the structure.
+fn options<const D: usize>(args: &KeyPointsArgs, found: &Structure<D>) -> KeyPointOptions {
+    let usual = KeyPointOptions::of_structure(&found.medium, found.least_speed_sq);
+    KeyPointOptions {
+        radius: args.radius.unwrap_or(usual.radius),
+        iterations: args.iterations.unwrap_or(usual.iterations),
+        least_speed_sq: args.structure.structure.unwrap_or(usual.least_speed_sq),
+        ..usual
+    }
 }
 
 fn search<const D: usize>(
-    args: &KeyPointsArgs,
+    method: KeyPointMethodArg,
     found: &Structure<D>,
-    radius: f64,
+    options: &KeyPointOptions,
     exec: &Exec,
 ) -> Result<KeyPoints<D>, Failure> {
     let Structure { medium, sources, .. } = found;
-    let least_speed_sq = args.structure.structure.unwrap_or(FAINT * found.least_speed_sq);
-    Ok(match args.method {
-        KeyPointMethodArg::Heat => {
-            let usual = KeyPointOptions::default();
-            let options = KeyPointOptions {
-                radius,
-                iterations: args.iterations.unwrap_or(usual.iterations),
-                least_speed_sq,
-                ..usual
-            };
-            key_points(medium, sources, &options, exec)?
-        }
+    Ok(match method {
+        KeyPointMethodArg::Heat => key_points(medium, sources, options, exec)?,
         KeyPointMethodArg::Length => {
-            let options =
-                LengthOptions { length: radius, least_speed_sq, ..LengthOptions::default() };
+            let &KeyPointOptions { radius: length, least_speed_sq, most, .. } = options;
+            let options = LengthOptions { length, least_speed_sq, most };
             key_points_by_length(medium, sources, &options, exec)?
         }
     })

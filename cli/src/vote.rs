@@ -14,7 +14,9 @@ use heatpath_core::grid::skeleton::PruneOptions;
 use heatpath_core::grid::voting::{
     self, Ends, FastMarchingVotingOptions, Growth, Method, Stop, Votes, VotingOptions,
 };
-use heatpath_io::{FieldStyle, ImageFile, Overlay, graph_json, write_field, write_overlay};
+use heatpath_io::{
+    FieldStyle, ImageFile, Overlay, check_dimension, graph_json, write_field, write_overlay,
+};
 
 pub(crate) fn vote(args: &VoteArgs) -> Result<(), Failure> {
     output::check(args.output.as_deref(), &Extraction::<2>::ENDINGS, &args.out)?;
@@ -27,7 +29,9 @@ pub(crate) fn vote(args: &VoteArgs) -> Result<(), Failure> {
 
 fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failure> {
     output::check_dimension(args.output.as_deref(), &args.out, D)?;
-    output::check_dimension(args.density.as_deref(), &args.out, D)?;
+    if let Some(file) = &args.density {
+        check_dimension(file, None, D)?;
+    }
     let picture = Picture::<D>::new(&args.picture, file)?;
     let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
     let approach = Approach::new(args, found.least_speed_sq)?;

@@ -15,7 +15,7 @@ use super::distance::EikonalError;
 use super::heat::HeatError;
 use super::medium::Medium;
 use super::path::Path;
-use super::{Grid, PointError, Sources, check_points};
+use super::{Grid, PointError, Sources, check_points, half_width, structure};
 use crate::exec::{Cancelled, Exec};
 use std::ops::RangeInclusive;
 use thiserror::Error;
@@ -73,6 +73,21 @@ impl Default for KeyPointOptions {
             tips: true,
             most: 10_000,
         }
+    }
+}
+
+impl KeyPointOptions {
+    /// The options for the [`structure`](super::structure()) of a medium from `least_speed_sq` on: a
+    /// radius of 4 times its half width, from 10 to 30 cells, so that circles are wider than tubes and
+    /// few branches end inside them; and half that speed for epsilon 2, as paths must run in the
+    /// structure all the way, also where it is faint.
+    #[must_use]
+    pub fn of_structure<const D: usize>(medium: &Medium<D>, least_speed_sq: f64) -> Self {
+        let unit = medium.shape().smallest_spacing();
+        let half_width = half_width(&structure(medium, least_speed_sq));
+        let usual = Self::default();
+        let radius = half_width.map_or(usual.radius, |half| (4.0 * half / unit).clamp(10.0, 30.0));
+        Self { radius, least_speed_sq: 0.5 * least_speed_sq, ..usual }
     }
 }
 

@@ -30,3 +30,24 @@ impl<const D: usize> Medium<D> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::grid::medium::{Form, given};
+    use crate::grid::{Grid, Mask, Shape};
+
+    #[test]
+    fn a_box_keeps_its_cells_and_ends_with_the_grid() {
+        let shape = Shape::with_spacing([9, 7], [0.5, 2.0]).unwrap();
+        let field = Grid::from_fn(shape, |[x, y]| (1 + x + 10 * y) as f64);
+        let walls = Mask::new(Grid::from_fn(shape, |index| index != [5, 3]));
+        let medium = given(field, Form::Divergence).unwrap().with_walls(walls).unwrap();
+        let part = medium.cropped([4, 2], [3, 4]);
+        assert_eq!((part.shape().size(), part.shape().spacing()), ([3, 4], [0.5, 2.0]));
+        let at = |index| part.shape().position(index);
+        assert_eq!(part.speed_sq(at([2, 3])), 57.0);
+        assert!(!part.mask().is_open(at([1, 1])) && part.mask().is_open(at([1, 2])));
+        assert_eq!(medium.cropped([7, 5], [99, 99]).shape().size(), [2, 2]);
+        assert_eq!(medium.cropped([99, 0], [3, 0]).shape().size(), [1, 1]);
+    }
+}
