@@ -200,7 +200,6 @@ impl<'a, const D: usize> Picture<'a, D> {
             power: args.power.unwrap_or(usual.power),
             floor: args.floor.unwrap_or(usual.floor),
             anisotropy: args.anisotropy.unwrap_or(usual.anisotropy),
-            anisotropy_power: usual.anisotropy_power,
             tubes: Tubes {
                 polarity: polarity(args).unwrap_or(usual.tubes.polarity),
                 elongation: args.elongation.unwrap_or(usual.tubes.elongation),
@@ -208,6 +207,7 @@ impl<'a, const D: usize> Picture<'a, D> {
                 contrast: args.contrast.or(self.args.normalize.map(|_| DEVIATION)),
                 ..usual.tubes
             },
+            ..usual
         }
     }
 

@@ -16,6 +16,9 @@ use heatpath_io::{
 };
 
 pub(crate) fn keypoints(args: &KeyPointsArgs) -> Result<(), Failure> {
+    if args.iterations.is_some() && matches!(args.method, KeyPointMethodArg::Length) {
+        return Err(Failure::usage("--iterations is of heat: `--method length` does not take it"));
+    }
     output::check(args.output.as_deref(), &Curves::<2>::ENDINGS, &args.out)?;
     let output = args.output.as_deref();
     output::check_field("--travelling", args.travelling.as_deref(), output, &args.out)?;
@@ -32,7 +35,7 @@ fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result
     }
     let picture = Picture::<D>::new(&args.picture, file)?;
     let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
-    let options = options(args, &found);
+    let options = options(args, &found)?;
     let found_points = run("key points", (args.structure.threads, args.out.quiet), |exec| {
         search(args.method, &found, &options, exec)
     })?;
@@ -70,14 +73,17 @@ fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result
 }
 
 /// What is not asked for comes from the structure.
-fn options<const D: usize>(args: &KeyPointsArgs, found: &Structure<D>) -> KeyPointOptions {
-    let usual = KeyPointOptions::of_structure(&found.medium, found.least_speed_sq);
-    KeyPointOptions {
+fn options<const D: usize>(
+    args: &KeyPointsArgs,
+    found: &Structure<D>,
+) -> Result<KeyPointOptions, Failure> {
+    let usual = KeyPointOptions::of_structure(&found.medium, found.level()?);
+    Ok(KeyPointOptions {
         radius: args.radius.unwrap_or(usual.radius),
         iterations: args.iterations.unwrap_or(usual.iterations),
         least_speed_sq: args.structure.structure.unwrap_or(usual.least_speed_sq),
         ..usual
-    }
+    })
 }
 
 fn search<const D: usize>(

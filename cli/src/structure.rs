@@ -11,8 +11,9 @@ use heatpath_core::grid::{Grid, Sources, seeds, structure, structure_level};
 pub(crate) struct Structure<const D: usize> {
     pub(crate) medium: Medium<D>,
     pub(crate) sources: Sources<D>,
-    /// The squared speed from which on a cell is part of the structure.
-    pub(crate) least_speed_sq: f64,
+    /// The squared speed from which on a cell is part of the structure; none if the medium is the same
+    /// everywhere.
+    level: Option<f64>,
 }
 
 impl<const D: usize> Structure<D> {
@@ -30,36 +31,36 @@ impl<const D: usize> Structure<D> {
         if points.is_empty() && compares && medium.reference.is_none() {
             // Tubes have seeds, and these the grey values to compare with.
             let tubes = picture.medium(&tubes(medium), &[], args.threads)?;
-            points = seeds(&tubes, level(&tubes)?, least_extent);
+            let level = structure_level(&tubes).ok_or_else(no_structure)?;
+            points = seeds(&tubes, level, least_extent);
         }
         let medium = picture.medium(medium, &points, args.threads)?;
-        let least_speed_sq = match args.structure {
-            Some(level) => level,
-            None => level(&medium)?,
-        };
+        let level = args.structure.or_else(|| structure_level(&medium));
         if points.is_empty() {
-            points = seeds(&medium, least_speed_sq, least_extent);
-        }
-        if points.is_empty() {
-            return Err(Failure::no_answer(format!(
-                "no piece of the structure, where k D is {least_speed_sq:.4} or more, is \
-                 {least_extent:.1} pixels long: give a --source, or lower --extent or --structure"
-            )));
+            let level = level.ok_or_else(no_structure)?;
+            points = seeds(&medium, level, least_extent);
+            if points.is_empty() {
+                return Err(Failure::no_answer(format!(
+                    "no piece of the structure, where k D is {level:.4} or more, is \
+                     {least_extent:.1} pixels long: give a --source, or lower --extent or --structure"
+                )));
+            }
         }
         let sources = Sources::new(&points, medium.mask())?;
-        Ok(Self { medium, sources, least_speed_sq })
+        Ok(Self { medium, sources, level })
     }
 
-    /// The cells of the structure.
-    pub(crate) fn cells(&self) -> Grid<bool, D> {
-        structure(&self.medium, self.least_speed_sq)
+    /// The squared speed from which on a cell is part of the structure.
+    pub(crate) fn level(&self) -> Result<f64, Failure> {
+        self.level.ok_or_else(no_structure)
     }
 
     /// The graph of cells that were found, with the radii of the structure around them.
     pub(crate) fn graph(&self, found: &Grid<bool, D>) -> Graph<D> {
-        let mut cells = self.cells();
+        let Some(level) = self.level else { return Graph::of_mask(found) };
+        let mut cells = structure(&self.medium, level);
         cells.values_mut().iter_mut().zip(found.values()).for_each(|(cell, &found)| *cell |= found);
-        Graph::of_centreline(&thin(found), &radii(&cells))
+        Graph::of_centreline(&thin(found), &radii(&cells)).expect("cells of one picture")
     }
 }
 
@@ -74,10 +75,8 @@ fn tubes(medium: &MediumArgs) -> MediumArgs {
     }
 }
 
-fn level<const D: usize>(medium: &Medium<D>) -> Result<f64, Failure> {
-    structure_level(medium).ok_or_else(|| {
-        Failure::no_answer(
-            "the medium is the same everywhere and shows no structure: choose another --medium",
-        )
-    })
+fn no_structure() -> Failure {
+    Failure::no_answer(
+        "the medium is the same everywhere and shows no structure: choose another --medium",
+    )
 }

@@ -19,6 +19,7 @@ use heatpath_io::{
 };
 
 pub(crate) fn vote(args: &VoteArgs) -> Result<(), Failure> {
+    check_options(args)?;
     output::check(args.output.as_deref(), &Extraction::<2>::ENDINGS, &args.out)?;
     output::check_field("--density", args.density.as_deref(), args.output.as_deref(), &args.out)?;
     match Input::read(&args.picture, &[&args.sources.source])? {
@@ -34,12 +35,13 @@ fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failu
     }
     let picture = Picture::<D>::new(&args.picture, file)?;
     let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
-    let approach = Approach::new(args, found.least_speed_sq)?;
+    let approach = Approach::new(args, &found)?;
     let votes = run("votes", (args.structure.threads, args.out.quiet), |exec| {
         approach.vote(&found.medium, &found.sources, exec)
     })?;
     let prune = PruneOptions { length: args.prune, ..PruneOptions::default() };
-    let cells = if args.no_growth { votes.kept.clone() } else { votes.crossed() };
+    let has_growth = matches!(approach, Approach::Heat(VotingOptions { growth: Some(_), .. }));
+    let cells = if has_growth { votes.crossed() } else { votes.kept.clone() };
     let graph = found.graph(&cells).pruned(prune);
     let extraction = Extraction { graph: &graph, kept: &votes.kept, seeds: found.sources.points() };
     // === Write
@@ -72,6 +74,30 @@ fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failu
     Ok(())
 }
 
+/// Refuses options that would do nothing.
+fn check_options(args: &VoteArgs) -> Result<(), Failure> {
+    let is_heat = !matches!(args.method, VotingMethodArg::Random | VotingMethodArg::Border);
+    if is_heat && !args.no_growth && args.threshold.is_some() {
+        return Err(Failure::usage(
+            "--threshold needs --no-growth or fast marching: with growth --least-votes decides",
+        ));
+    }
+    let of_heat = [
+        ("--no-growth", args.no_growth),
+        ("--gap", args.gap.is_some()),
+        ("--least-votes", args.least_votes.is_some()),
+        ("--level", args.level.is_some()),
+        ("--settled", args.settled.is_some()),
+        ("--iterations", args.iterations.is_some()),
+    ];
+    match of_heat.into_iter().find(|&(_, is_given)| is_given && !is_heat) {
+        Some((option, _)) => Err(Failure::usage(format!(
+            "{option} is of heat: votes by fast marching (`--method random`, `border`) do not take it"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// How votes come about.
 enum Approach {
     Heat(VotingOptions),
@@ -79,44 +105,39 @@ enum Approach {
 }
 
 impl Approach {
-    fn new(args: &VoteArgs, least_speed_sq: f64) -> Result<Self, Failure> {
-        let fast_marching = |ends| {
-            let usual = FastMarchingVotingOptions::default();
-            let threshold = args.threshold.unwrap_or(usual.threshold);
-            Self::FastMarching(FastMarchingVotingOptions { ends, threshold, ..usual })
+    fn new<const D: usize>(args: &VoteArgs, found: &Structure<D>) -> Result<Self, Failure> {
+        let ends = match args.method {
+            VotingMethodArg::Front => return Self::heat(args, Method::Front, found),
+            VotingMethodArg::Multiple => return Self::heat(args, Method::Multiple, found),
+            VotingMethodArg::Accumulated => return Self::heat(args, Method::Accumulated, found),
+            VotingMethodArg::Random => Ends::Random { count: 500, seed: 0 },
+            VotingMethodArg::Border => Ends::Border,
         };
-        let heat = |method| {
-            let usual = Growth::new(least_speed_sq);
-            let growth = Growth {
-                gap: args.gap.unwrap_or(usual.gap),
-                least_votes: args.least_votes.unwrap_or(usual.least_votes),
-                ..usual
-            };
-            Self::Heat(VotingOptions {
-                method,
-                steps: args.iterations,
-                threshold: args.threshold,
-                level: args.level,
-                settled_share: args.settled,
-                growth: (!args.no_growth).then_some(growth),
-                ..VotingOptions::default()
-            })
-        };
-        let approach = match args.method {
-            VotingMethodArg::Front => heat(Method::Front),
-            VotingMethodArg::Multiple => heat(Method::Multiple),
-            VotingMethodArg::Accumulated => heat(Method::Accumulated),
-            VotingMethodArg::Random => fast_marching(Ends::Random { count: 500, seed: 0 }),
-            VotingMethodArg::Border => fast_marching(Ends::Border),
-        };
-        let is_heat = matches!(approach, Self::Heat(_));
-        if !is_heat && (args.no_growth || args.level.is_some() || args.iterations.is_some()) {
-            return Err(Failure::usage(
-                "--no-growth, --level and --iterations are of heat: votes by fast marching (`--method \
-                 random`, `border`) take none",
-            ));
-        }
-        Ok(approach)
+        let usual = FastMarchingVotingOptions::default();
+        let threshold = args.threshold.unwrap_or(usual.threshold);
+        Ok(Self::FastMarching(FastMarchingVotingOptions { ends, threshold, ..usual }))
+    }
+
+    fn heat<const D: usize>(
+        args: &VoteArgs,
+        method: Method,
+        found: &Structure<D>,
+    ) -> Result<Self, Failure> {
+        let growth = if args.no_growth { None } else { Some(Growth::new(found.level()?)) };
+        let growth = growth.map(|usual| Growth {
+            gap: args.gap.unwrap_or(usual.gap),
+            least_votes: args.least_votes.unwrap_or(usual.least_votes),
+            ..usual
+        });
+        Ok(Self::Heat(VotingOptions {
+            method,
+            steps: args.iterations,
+            threshold: args.threshold,
+            level: args.level,
+            settled_share: args.settled,
+            growth,
+            ..VotingOptions::default()
+        }))
     }
 
     fn vote<const D: usize>(

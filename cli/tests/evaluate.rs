@@ -73,7 +73,7 @@ fn several_tolerances_are_a_list_and_a_table() {
         "{csv}"
     );
     assert_eq!(csv.lines().count(), 4);
-    assert!(csv.lines().nth(2).unwrap().starts_with("1,0.75,1,"), "{csv}");
+    assert!(csv.lines().nth(2).unwrap().starts_with("1.0,0.75,1.0,"), "{csv}");
     assert_eq!(bench.ok(&format!("{arguments} --quiet")), "");
 }
 

@@ -141,6 +141,16 @@ fn what_cannot_be_found_is_said() {
         );
         assert_eq!(bench.run(&format!("{command} fork.npy")).status.code(), Some(2));
     }
+    let flat = "flat.npy --source 20,20 --medium uniform --no-growth";
+    bench.ok(&format!("vote {flat} -o flat.json"));
+    fs::remove_file(bench.path("flat.json")).unwrap();
+    bench.fails("vote fork.npy --threshold 0.1 -o x.json", 2, &["--threshold", "--no-growth"]);
+    for option in ["--gap 3", "--least-votes 3", "--settled 0.9", "--iterations 9", "--no-growth"] {
+        let border = format!("vote fork.npy --source 20,50 --method border {option} -o x.json");
+        bench.fails(&border, 2, &[option.split(' ').next().unwrap(), "fast marching"]);
+    }
+    let length = "keypoints fork.npy --method length --iterations 9 -o x.json";
+    bench.fails(length, 2, &["--iterations", "length"]);
     bench.fails("vote fork.npy --gap -1 -o x.json", 2, &["gap", "-1"]);
     bench.fails("vote fork.npy --density x.npy -o x.npy", 2, &["two files"]);
     bench.fails("vote fork.npy --margin -1 --mask truth.npy -o x.json", 2, &["--margin", "-1"]);

@@ -1,12 +1,14 @@
 //! Geodesic distances and curves on images and volumes by letting heat flow through them.
 #![doc = include_str!("tour.md")]
 
+mod error;
 pub mod evaluation;
 pub mod exec;
 pub mod grid;
 pub mod linear;
 mod simd;
 
+pub use error::ParameterError;
 pub use exec::Exec;
 
 /// The examples of the README are tests too.

@@ -332,7 +332,11 @@ fn turning_the_picture_changes_little() {
 fn radii_can_be_the_scales_of_a_filter() {
     let line = raster(&[[[3.0, 5.0], [27.0, 5.0]]], Shape::new([31, 11]).unwrap());
     let scales = Grid::from_fn(*line.shape(), |[x, _]| 1.0 + 0.1 * x as f64);
-    let graph = Graph::of_centreline(&line, &scales);
+    let graph = Graph::of_centreline(&line, &scales).unwrap();
+    assert!(
+        Graph::of_centreline(&line, &Grid::from_fn(Shape::new([31, 9]).unwrap(), |_| 1.0))
+            .is_none()
+    );
     assert!((graph.branches[0].radii[0] - 1.3).abs() < 1e-12);
     assert!((graph.branches[0].mean_radius - 2.5).abs() < 1e-9);
     let dot = Graph::of_mask(&mask([5, 5], |p| p == [2.0, 2.0]));

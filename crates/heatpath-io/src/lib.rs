@@ -12,6 +12,7 @@
 //! | out | fields and masks ([`write_field`], [`write_mask`]) | NPY, TIFF, PNG |
 //! | out | curves ([`write_curves`]) | JSON, CSV, SVG, SWC, VTP |
 //! | out | skeleton graphs ([`write_graph`]) | JSON, CSV, SWC, VTP |
+//! | out | recall and precision ([`write_scores`]) | JSON, CSV |
 //! | out | a result on its picture ([`write_overlay`]) | PNG |
 //!
 //! PNG and SVG are for pictures only; all else is the same in two and three dimensions.
@@ -51,6 +52,7 @@ pub mod picture;
 mod points;
 mod polylines;
 mod sample;
+pub mod scores;
 mod svg;
 mod swc;
 mod text;
@@ -71,3 +73,4 @@ pub use picture::{
 pub use points::{read_points, read_points_from_bytes};
 pub use polylines::CurveFile;
 pub use sample::SampleType;
+pub use scores::{scores_json, write_scores};

@@ -58,7 +58,7 @@ impl<const D: usize> DistanceMap<D> {
 }
 
 /// The distance at `point`, interpolated between those of the cells around it that were reached.
-fn interpolated<const D: usize>(
+pub(crate) fn interpolated<const D: usize>(
     shape: &Shape<D>,
     point: [f64; D],
     mut distance: impl FnMut(usize) -> f64,

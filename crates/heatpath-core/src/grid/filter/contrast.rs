@@ -1,6 +1,7 @@
 //! Contrast that is the same everywhere.
 
 use super::{FilterError, QUIET, smooth};
+use crate::error::check_positive;
 use crate::exec::Exec;
 use crate::grid::{Grid, Mask};
 use std::ops::Range;
@@ -32,10 +33,7 @@ pub fn normalize_contrast<const D: usize>(
     exec: &Exec,
 ) -> Result<Grid<f64, D>, FilterError> {
     image.check_finite()?;
-    if !(sigma.is_finite() && sigma > 0.0) {
-        let range = "a positive finite number";
-        return Err(FilterError::Parameter { name: "sigma", value: sigma, range });
-    }
+    check_positive("sigma", sigma)?;
     let (given, expected) = (mask.shape().size(), image.shape().size());
     if given != expected {
         return Err(FilterError::MaskSize { mask: given.to_vec(), image: expected.to_vec() });

@@ -23,6 +23,7 @@ pub use vesselness::{LARGEST_ELONGATION, LARGEST_SCALE, Tubes, Vesselness, vesse
 pub(super) use measure::rise;
 
 use super::{Grid, NotFinite};
+use crate::error::ParameterError;
 use crate::exec::{Cancelled, Exec};
 use separable::Derivatives;
 use std::ops::Range;
@@ -46,15 +47,8 @@ pub enum FilterError {
     #[error(transparent)]
     Sigma(#[from] SigmaError),
     /// A parameter is outside its range.
-    #[error("{name} is {value}; it must be {range}")]
-    Parameter {
-        /// The parameter's name.
-        name: &'static str,
-        /// The rejected value.
-        value: f64,
-        /// What would be right.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The mask is for another grid.
     #[error("the mask has {mask:?} cells but the image has {image:?}")]
     MaskSize {

@@ -5,6 +5,7 @@ use super::flux::{HAT_VARIANCE, ball_over_sphere};
 use super::measure::{Measure, Polarity};
 use super::separable::{Derivatives, Scratch, for_each_slab, second_orders, slab_cells};
 use super::{FilterError, QUIET};
+use crate::error::{ParameterError, check, check_positive};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Matrix, eigen};
 use std::borrow::Cow;
@@ -132,29 +133,19 @@ pub fn vesselness<const D: usize>(
 }
 
 impl Tubes {
-    fn check(&self) -> Result<(), FilterError> {
-        let mut positive: Vec<(&'static str, f64)> =
-            self.contrast.map(|c| ("contrast", c)).into_iter().collect();
+    fn check(&self) -> Result<(), ParameterError> {
+        self.contrast.map_or(Ok(()), |contrast| check_positive("contrast", contrast))?;
         if let Measure::Frangi { alpha, beta } = self.measure {
-            positive.extend([("alpha", alpha), ("beta", beta)]);
+            check_positive("alpha", alpha)?;
+            check_positive("beta", beta)?;
         }
-        let range = "a positive finite number";
-        if let Some(&(name, value)) = positive.iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
-            return Err(FilterError::Parameter { name, value, range });
+        for &scale in &self.scales {
+            let is_right = scale > 0.0 && scale <= LARGEST_SCALE;
+            check("scale", scale, is_right, "positive and at most 100 cells")?;
         }
-        let range = "positive and at most 100 cells";
-        if let Some(&value) = self.scales.iter().find(|s| !(**s > 0.0 && **s <= LARGEST_SCALE)) {
-            return Err(FilterError::Parameter { name: "scale", value, range });
-        }
-        if !(1.0..=LARGEST_ELONGATION).contains(&self.elongation) {
-            let (name, value, range) = ("elongation", self.elongation, "from 1 to 10");
-            return Err(FilterError::Parameter { name, value, range });
-        }
-        if self.scales.is_empty() {
-            let (name, value) = ("number of scales", 0.0);
-            return Err(FilterError::Parameter { name, value, range: "at least 1" });
-        }
-        Ok(())
+        let is_right = (1.0..=LARGEST_ELONGATION).contains(&self.elongation);
+        check("elongation", self.elongation, is_right, "from 1 to 10")?;
+        check("number of scales", 0.0, !self.scales.is_empty(), "at least 1")
     }
 }
 

@@ -6,7 +6,7 @@ use super::{KeyPoint, KeyPointError, KeyPoints, Link, Stop};
 use crate::Exec;
 use crate::grid::distance::NOT_REACHED;
 use crate::grid::path::{Ending, Path};
-use crate::grid::{Grid, Shape, Sources};
+use crate::grid::{Grid, Sources};
 
 /// What has been found so far.
 pub(super) struct Growth<'a, 'm, const D: usize> {
@@ -151,7 +151,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         let mut points: Vec<[f64; D]> = rest[other..].iter().rev().copied().collect();
         points.extend(&path.points[own..]);
         points.dedup();
-        let path = polyline(&shape, points, to, path.distance);
+        let path = Path::new(points, Ending::Source(to), path.distance, &shape);
         if self.is_new(to, from, &path) {
             self.links.push(Link { from, to, path });
         }
@@ -244,21 +244,4 @@ fn straight<const D: usize>(a: [f64; D], b: [f64; D]) -> Vec<[f64; D]> {
         std::array::from_fn(|axis| a[axis] + part * (b[axis] - a[axis]))
     };
     (0..=steps).map(at).collect()
-}
-
-/// A path along some points to the key point `to`.
-fn polyline<const D: usize>(
-    shape: &Shape<D>,
-    points: Vec<[f64; D]>,
-    to: usize,
-    distance: f64,
-) -> Path<D> {
-    let pairs = || points.windows(2).map(|pair| (pair[0], pair[1]));
-    Path {
-        length: pairs().map(|(a, b)| cells_between(a, b)).sum(),
-        physical_length: pairs().map(|(a, b)| shape.physical_distance(a, b)).sum(),
-        ending: Ending::Source(to),
-        distance,
-        points,
-    }
 }

@@ -16,6 +16,7 @@ use super::heat::HeatError;
 use super::medium::Medium;
 use super::path::Path;
 use super::{Grid, PointError, Sources, check_points, half_width, structure};
+use crate::error::{self, ParameterError};
 use crate::exec::{Cancelled, Exec};
 use std::ops::RangeInclusive;
 use thiserror::Error;
@@ -95,15 +96,8 @@ impl KeyPointOptions {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum KeyPointError {
     /// A parameter is outside its range.
-    #[error("{name} is {value}; it must be {range}")]
-    Parameter {
-        /// The parameter's name.
-        name: &'static str,
-        /// The rejected value.
-        value: f64,
-        /// What would be right.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// A seed lies outside the grid or in a wall.
     #[error(transparent)]
     Point(#[from] PointError),
@@ -210,7 +204,7 @@ pub fn key_points<const D: usize>(
     Growth::new(&search, seeds).run(exec)
 }
 
-fn check(options: &KeyPointOptions) -> Result<(), KeyPointError> {
+fn check(options: &KeyPointOptions) -> Result<(), ParameterError> {
     let part = match options.threshold {
         Threshold::Temperature(part) | Threshold::Speed(part) => part,
     };
@@ -227,10 +221,6 @@ fn check_range(
     value: f64,
     allowed: RangeInclusive<f64>,
     range: &'static str,
-) -> Result<(), KeyPointError> {
-    if allowed.contains(&value) {
-        Ok(())
-    } else {
-        Err(KeyPointError::Parameter { name, value, range })
-    }
+) -> Result<(), ParameterError> {
+    error::check(name, value, allowed.contains(&value), range)
 }

@@ -2,11 +2,10 @@
 
 use super::KeyPointError;
 use crate::Exec;
-use crate::grid::distance::{DistanceMap, NOT_REACHED, normalized};
+use crate::grid::distance::{DistanceMap, NOT_REACHED, interpolated, normalized};
 use crate::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use crate::grid::medium::Medium;
 use crate::grid::path::{Descent, Ending, Path, PathOptions};
-use crate::grid::sample::corners;
 use crate::grid::{Shape, Sources};
 
 /// The cells at most some cells away from a point along every axis, as a medium of their own.
@@ -87,18 +86,10 @@ impl<const D: usize> Flow<D> {
     /// infinity beyond the border, in walls and where there is none.
     pub(super) fn ln_temperature(&self, point: [f64; D]) -> f64 {
         let (field, inside) = (self.heat.ln_temperature(), self.window.inside(point));
-        if !field.shape().contains(inside) || field[field.shape().cell_at(inside)].is_infinite() {
+        if !field.shape().contains(inside) {
             return f64::NEG_INFINITY;
         }
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (cell, weight) in corners(field.shape(), inside) {
-            let value = field.values()[cell];
-            if value.is_finite() {
-                sum += weight * value;
-                weights += weight;
-            }
-        }
-        sum / weights
+        -interpolated(field.shape(), inside, |cell| -field.values()[cell])
     }
 
     /// The distance of a point from the key point, not reached beyond the border.

@@ -1,6 +1,7 @@
 //! Equation (6): heat flows where the grey value resembles the source's.
 
-use super::{Form, Medium, MediumError, check_positive};
+use super::{Form, Medium, MediumError};
+use crate::error::{check, check_positive};
 use crate::grid::Grid;
 
 /// The parameters of [`conductivity`].
@@ -44,13 +45,10 @@ pub(super) fn alpha<const D: usize>(
     image.check_finite()?;
     check_positive("power", options.power)?;
     check_positive("floor", options.floor)?;
-    if let Some(&value) = references.iter().find(|value| !value.is_finite()) {
-        return Err(MediumError::Parameter { name: "reference value", value, range: "finite" });
+    for &reference in references {
+        check("reference value", reference, reference.is_finite(), "finite")?;
     }
-    if references.is_empty() {
-        let (name, value) = ("number of reference values", 0.0);
-        return Err(MediumError::Parameter { name, value, range: "at least 1" });
-    }
+    check("number of reference values", 0.0, !references.is_empty(), "at least 1")?;
     Ok(image.map(|&value| {
         let difference = references.iter().map(|r| (r - value).abs()).fold(f64::INFINITY, f64::min);
         (1.0 - difference).abs().powf(options.power) + options.floor

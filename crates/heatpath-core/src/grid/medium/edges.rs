@@ -1,6 +1,7 @@
 //! Equation (11): heat runs along edges and thin lines.
 
-use super::{Form, Medium, MediumError, check_positive};
+use super::{Form, Medium, MediumError};
+use crate::error::check_positive;
 use crate::grid::Grid;
 use crate::grid::filter::{gaussian, gradient_sq};
 

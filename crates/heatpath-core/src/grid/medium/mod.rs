@@ -26,6 +26,7 @@ pub use vesselness::{VesselnessOptions, vesselness};
 use super::filter::{FilterError, SigmaError};
 use super::tensor::determinant;
 use super::{Grid, Mask, Matrix, NotFinite, Shape, TensorField};
+use crate::error::ParameterError;
 use crate::exec::Cancelled;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -116,15 +117,8 @@ pub enum MediumError {
         value: Vec<Vec<f64>>,
     },
     /// A parameter is outside its range.
-    #[error("{name} is {value}; it must be {range}")]
-    Parameter {
-        /// The parameter's name.
-        name: &'static str,
-        /// The rejected value.
-        value: f64,
-        /// What would be right.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The smoothing before derivatives makes no sense.
     #[error(transparent)]
     Smoothing(#[from] SigmaError),
@@ -146,7 +140,7 @@ impl From<FilterError> for MediumError {
         match error {
             FilterError::NotFinite(error) => error.into(),
             FilterError::Sigma(error) => error.into(),
-            FilterError::Parameter { name, value, range } => Self::Parameter { name, value, range },
+            FilterError::Parameter(error) => error.into(),
             FilterError::MaskSize { mask, image } => Self::MaskSize { mask, image },
             FilterError::Cancelled(error) => error.into(),
         }
@@ -239,14 +233,5 @@ impl<const D: usize> Medium<D> {
             Form::Divergence => Self { factor: None, diffusion: Diffusion::Scalar(field), mask },
             Form::Pointwise => Self { factor: Some(field), diffusion: Diffusion::Uniform, mask },
         }
-    }
-}
-
-/// Checks that a parameter is a positive finite number.
-fn check_positive(name: &'static str, value: f64) -> Result<(), MediumError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(MediumError::Parameter { name, value, range: "a positive finite number" })
     }
 }

@@ -1,6 +1,7 @@
 //! Equations (7) to (9): heat stays inside regions without edges.
 
-use super::{Form, Medium, MediumError, check_positive};
+use super::{Form, Medium, MediumError};
+use crate::error::check_positive;
 use crate::grid::Grid;
 use crate::grid::filter::{gaussian, gradient_sq};
 

@@ -1,6 +1,7 @@
 //! Equations (12) to (14): heat runs along the directions of the image.
 
 use super::{Diffusion, Medium, MediumError};
+use crate::error::{ParameterError, check};
 use crate::exec::Exec;
 use crate::grid::filter::{Polarity, QUIET, gaussian_gradient, hessian, rise, structure_tensor};
 use crate::grid::{Grid, Mask, Matrix, TensorField, eigen};
@@ -100,11 +101,8 @@ pub fn tensor<const D: usize>(
 }
 
 /// Checks the A of eq. (14).
-pub(super) fn check_anisotropy(value: f64) -> Result<(), MediumError> {
-    if (0.0..=MOST_ANISOTROPY).contains(&value) {
-        return Ok(());
-    }
-    Err(MediumError::Parameter { name: "anisotropy", value, range: "from 0 to 0.9998" })
+pub(super) fn check_anisotropy(value: f64) -> Result<(), ParameterError> {
+    check("anisotropy", value, (0.0..=MOST_ANISOTROPY).contains(&value), "from 0 to 0.9998")
 }
 
 /// The l1 of eq. (14), for `l2 = 1`.
@@ -203,7 +201,10 @@ mod tests {
         for anisotropy in [-0.1, 1.0, f64::NAN] {
             let options = TensorOptions { anisotropy, ..Default::default() };
             let error = tensor(&image, options, &Exec::single_threaded()).unwrap_err();
-            assert!(matches!(error, MediumError::Parameter { name: "anisotropy", .. }));
+            assert!(matches!(
+                error,
+                MediumError::Parameter(ParameterError { name: "anisotropy", .. })
+            ));
         }
     }
 }

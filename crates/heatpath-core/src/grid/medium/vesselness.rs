@@ -1,7 +1,8 @@
 //! Heat runs through tubes, and if asked along them.
 
 use super::tensor::{check_anisotropy, speed_across, with_axis};
-use super::{Diffusion, Form, Medium, MediumError, check_positive};
+use super::{Diffusion, Form, Medium, MediumError};
+use crate::error::{check, check_positive};
 use crate::exec::Exec;
 use crate::grid::filter::{self, Tubes};
 use crate::grid::{Grid, Mask, TensorField};
@@ -59,7 +60,9 @@ pub fn vesselness<const D: usize>(
     check_positive("power", options.power)?;
     check_positive("floor", options.floor)?;
     check_anisotropy(options.anisotropy)?;
-    check_anisotropy_power(options.anisotropy_power)?;
+    let power = options.anisotropy_power;
+    let is_right = power.is_finite() && power >= 0.0;
+    check("anisotropy power", power, is_right, "a finite number, 0 or above")?;
     let found = filter::vesselness(image, &options.tubes, exec)?;
     let speed_sq = found.response.map(|v| v.powf(options.power) + options.floor);
     if options.anisotropy == 0.0 {
@@ -74,14 +77,6 @@ pub fn vesselness<const D: usize>(
     });
     let mask = Mask::all_open(*image.shape());
     Ok(Medium { factor: Some(speed_sq), diffusion: Diffusion::Tensor(field), mask })
-}
-
-fn check_anisotropy_power(value: f64) -> Result<(), MediumError> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(());
-    }
-    let range = "a finite number, 0 or above";
-    Err(MediumError::Parameter { name: "anisotropy power", value, range })
 }
 
 #[cfg(test)]
@@ -127,6 +122,6 @@ mod tests {
         }
         let bad = VesselnessOptions { anisotropy_power: -1.0, ..Default::default() };
         let error = vesselness(&lines, &bad, &Exec::single_threaded()).unwrap_err();
-        assert!(matches!(error, MediumError::Parameter { name: "anisotropy power", .. }));
+        assert!(matches!(error, MediumError::Parameter(error) if error.name == "anisotropy power"));
     }
 }

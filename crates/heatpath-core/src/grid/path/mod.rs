@@ -50,6 +50,28 @@ pub struct Path<const D: usize> {
     pub distance: f64,
 }
 
+impl<const D: usize> Path<D> {
+    pub(crate) fn new(
+        points: Vec<[f64; D]>,
+        ending: Ending,
+        distance: f64,
+        shape: &Shape<D>,
+    ) -> Self {
+        Self {
+            length: length(&points, &shape.unit_spacing()),
+            physical_length: length(&points, shape),
+            distance,
+            points,
+            ending,
+        }
+    }
+}
+
+/// The length of a polyline in the units of `shape`.
+pub(crate) fn length<const D: usize>(points: &[[f64; D]], shape: &Shape<D>) -> f64 {
+    points.windows(2).map(|pair| shape.physical_distance(pair[0], pair[1])).sum()
+}
+
 /// The parameters of [`Descent::path`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathOptions {
@@ -132,16 +154,9 @@ impl<'a, const D: usize> Descent<'a, D> {
     ) -> Result<Path<D>, PointError> {
         check_points("end", &[end], self.mask())?;
         let (points, ending) = self.trace(end, options);
-        let pairs = || points.windows(2).map(|pair| (pair[0], pair[1]));
-        let pixels = self.shape().unit_spacing();
         let reached = matches!(ending, Ending::Source(_));
-        Ok(Path {
-            length: pairs().map(|(a, b)| pixels.physical_distance(a, b)).sum(),
-            physical_length: pairs().map(|(a, b)| self.shape().physical_distance(a, b)).sum(),
-            distance: if reached { distances.at(end) } else { NOT_REACHED },
-            points,
-            ending,
-        })
+        let distance = if reached { distances.at(end) } else { NOT_REACHED };
+        Ok(Path::new(points, ending, distance, self.shape()))
     }
 
     pub(crate) fn medium(&self) -> &'a Medium<D> {

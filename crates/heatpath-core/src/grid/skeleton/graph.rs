@@ -2,6 +2,7 @@
 
 use super::network::Network;
 use super::{radii, thin};
+use crate::grid::path::length;
 use crate::grid::{Grid, Shape};
 
 /// How often [`averaged`] averages: a Gaussian of standard deviation 2 cells.
@@ -57,7 +58,7 @@ impl<const D: usize> Graph<D> {
     /// [`radii`].
     #[must_use]
     pub fn of_mask(mask: &Grid<bool, D>) -> Self {
-        Self::of_centreline(&thin(mask), &radii(mask))
+        Self::new(&thin(mask), &radii(mask))
     }
 
     /// The graph of a centreline, whose cells hang together by faces, edges and corners, with the
@@ -68,7 +69,12 @@ impl<const D: usize> Graph<D> {
     /// straight lines is then right to 1 % at any angle, where the bare steps of the grid are up to
     /// 8 % too long.
     #[must_use]
-    pub fn of_centreline(centreline: &Grid<bool, D>, radii: &Grid<f64, D>) -> Self {
+    pub fn of_centreline(centreline: &Grid<bool, D>, radii: &Grid<f64, D>) -> Option<Self> {
+        let is_one_grid = centreline.shape().size() == radii.shape().size();
+        is_one_grid.then(|| Self::new(centreline, radii))
+    }
+
+    fn new(centreline: &Grid<bool, D>, radii: &Grid<f64, D>) -> Self {
         let shape = *centreline.shape();
         let network = Network::new(centreline);
         let node = |&cell: &usize| Node {
@@ -109,11 +115,10 @@ impl<const D: usize> Branch<D> {
         let means = radii.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let integral: f64 = steps().zip(means).map(|(step, mean)| step * mean).sum();
         let chord = shape.physical_distance(points[0], points[points.len() - 1]);
-        let cells = shape.unit_spacing();
         Self {
             from,
             to,
-            length: points.windows(2).map(|pair| cells.physical_distance(pair[0], pair[1])).sum(),
+            length: length(&points, &shape.unit_spacing()),
             physical_length,
             tortuosity: if chord > 0.0 { physical_length / chord } else { f64::INFINITY },
             mean_radius: integral / physical_length,

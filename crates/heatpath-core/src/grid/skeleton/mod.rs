@@ -28,9 +28,10 @@ pub use thin::thin;
 pub(crate) use graph::smoothed;
 pub(crate) use network::Network;
 
+use super::raster::crossed;
 use super::{Grid, Shape};
 
-/// The cells that polylines, in pixel coordinates, pass through; what lies beyond the grid is left out.
+/// The cells that polylines, in pixel coordinates, cross; segments that leave the grid are left out.
 ///
 /// Each polyline gives cells that hang together by faces, edges or corners. Of many paths to one
 /// source, `Graph::of_mask(&raster(...))` makes one graph; its radii are those of the raster.
@@ -40,21 +41,9 @@ pub fn raster<const D: usize>(
     shape: Shape<D>,
 ) -> Grid<bool, D> {
     let mut mask = Grid::from_fn(shape, |_| false);
-    let mut mark = |point: [f64; D]| {
-        if shape.contains(point) {
-            mask[shape.cell_at(point)] = true;
-        }
-    };
     for points in polylines.iter().map(AsRef::as_ref) {
-        points.iter().for_each(|&point| mark(point));
-        for pair in points.windows(2) {
-            let step = |axis: usize| (pair[1][axis] - pair[0][axis]).abs();
-            let parts = (4.0 * (0..D).map(step).fold(0.0, f64::max)).ceil();
-            for part in 1..parts as usize {
-                let along = part as f64 / parts;
-                let at = |axis: usize| pair[0][axis] + along * (pair[1][axis] - pair[0][axis]);
-                mark(std::array::from_fn(at));
-            }
+        for inside in points.split(|&point| !shape.contains(point)) {
+            crossed(&shape, inside).into_iter().for_each(|cell| mask.values_mut()[cell] = true);
         }
     }
     mask

@@ -1,10 +1,10 @@
 //! The geodesic density (eq. 23).
 
 use super::flow::flow_votes;
-use super::raster::crossed;
 use super::{Growth, VotingError};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::path::{Descent, Ending, PathOptions};
+use crate::grid::raster::crossed;
 use crate::grid::{Grid, check_points};
 use std::sync::atomic::{AtomicU32, Ordering};
 

@@ -1,8 +1,9 @@
 //! Votes as they were: minimal paths by fast marching (Rouchdy & Cohen 2013, the paper's [29]).
 
 use super::density::votes;
-use super::tally::Tally;
+use super::tally::{Tally, positions};
 use super::{Counting, Stop, Votes, VotingError, check_threshold, front};
+use crate::error::check;
 use crate::exec::Exec;
 use crate::grid::Sources;
 use crate::grid::distance::{Eikonal, EikonalOptions};
@@ -70,7 +71,7 @@ pub fn vote_by_fast_marching<const D: usize>(
     let ends: Vec<_> = cells.into_iter().map(|cell| medium.shape().centre(cell)).collect();
     let report = &mut |finished| exec.report(finished);
     let density = votes(&descent, &ends, (counting, None), report, exec)?;
-    let mut tally = Tally::new(medium, sources);
+    let mut tally = Tally::new(medium, sources, None);
     let least_votes = |largest| threshold * f64::from(largest);
     tally.count(&density, least_votes, (distances.reached().count(), ends.len()));
     Ok(tally.votes(Stop::Rounds))
@@ -81,13 +82,9 @@ fn cells<const D: usize>(ends: Ends, medium: &Medium<D>) -> Result<Vec<usize>, V
     let open = medium.mask().open();
     match ends {
         Ends::Border => Ok(front(open)),
-        Ends::Random { count: 0, .. } => {
-            let (name, range) = ("count", "at least 1");
-            Err(VotingError::Parameter { name, value: 0.0, range })
-        }
         Ends::Random { count, seed } => {
-            let open: Vec<usize> =
-                (0..open.values().len()).filter(|&cell| open.values()[cell]).collect();
+            check("count", count as f64, count > 0, "at least 1")?;
+            let open = positions(open);
             let mut random = SplitMix(seed);
             Ok((0..count).map(|_| open[random.below(open.len())]).collect())
         }

@@ -7,11 +7,11 @@
 
 use super::Growth;
 use super::growth::step_length;
-use super::raster::crossed;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::Grid;
 use crate::grid::medium::Medium;
 use crate::grid::path::{Descent, Ending, PathOptions};
+use crate::grid::raster::crossed;
 
 /// The steps of a piece.
 const STEPS: usize = 8;

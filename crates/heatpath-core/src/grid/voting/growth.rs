@@ -1,8 +1,8 @@
 //! Growth that stops at the structure's edge.
 
-use super::VotingError;
+use crate::error::{ParameterError, check, check_positive};
+use crate::grid::Shape;
 use crate::grid::medium::Medium;
-use crate::grid::{Grid, Shape};
 
 /// Votes of the structure, which is where the medium is fast, instead of the front's.
 ///
@@ -39,32 +39,13 @@ impl Growth {
         Self { least_speed_sq, gap: 6.0, least_votes: 10 }
     }
 
-    pub(super) fn check(&self) -> Result<(), VotingError> {
-        let Self { least_speed_sq, gap, .. } = *self;
-        if !(least_speed_sq.is_finite() && least_speed_sq > 0.0) {
-            let (name, range) = ("least_speed_sq", "a positive finite number");
-            return Err(VotingError::Parameter { name, value: least_speed_sq, range });
-        }
-        if gap.is_nan() || gap < 0.0 {
-            let (name, range) = ("gap", "a length from 0");
-            return Err(VotingError::Parameter { name, value: gap, range });
-        }
-        Ok(())
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
+        check_positive("least_speed_sq", self.least_speed_sq)?;
+        check("gap", self.gap, self.gap >= 0.0, "a length from 0")
     }
 
     pub(super) fn is_inside<const D: usize>(&self, medium: &Medium<D>, cell: usize) -> bool {
         medium.speed_sq(cell) >= self.least_speed_sq
-    }
-
-    /// The positions of the structure's cells in a region of open ones.
-    pub(super) fn cells<const D: usize>(
-        &self,
-        region: &Grid<bool, D>,
-        medium: &Medium<D>,
-    ) -> Vec<usize> {
-        let region = region.values();
-        let is_end = |&cell: &usize| region[cell] && self.is_inside(medium, cell);
-        (0..region.len()).filter(is_end).collect()
     }
 
     /// The number of points, from the last one backwards, with which a path votes.

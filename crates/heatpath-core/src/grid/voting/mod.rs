@@ -13,7 +13,6 @@ mod flow;
 mod front;
 mod growth;
 mod options;
-mod raster;
 mod tally;
 
 pub use density::{Counting, density};
@@ -27,6 +26,7 @@ use super::distance::EikonalError;
 use super::heat::{Duration, Explicit, HeatError, HeatOptions};
 use super::medium::Medium;
 use super::{Grid, PointError, Sources};
+use crate::error::{self, ParameterError};
 use crate::exec::{Cancelled, Exec};
 use thiserror::Error;
 
@@ -86,15 +86,8 @@ pub enum Stop {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum VotingError {
     /// A parameter is outside its range.
-    #[error("{name} is {value}; it must be {range}")]
-    Parameter {
-        /// The parameter's name.
-        name: &'static str,
-        /// The rejected value.
-        value: f64,
-        /// What would be right.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// An end lies outside the grid or in a wall.
     #[error(transparent)]
     End(#[from] PointError),
@@ -146,7 +139,7 @@ pub fn vote<const D: usize>(
     exec: &Exec,
 ) -> Result<Votes<D>, VotingError> {
     options.check()?;
-    let mut tally = Tally::new(medium, sources);
+    let mut tally = Tally::new(medium, sources, options.growth);
     let mut explicit = Explicit::new(medium, options.heat())?.down_to(options.level());
     let steps = explicit.iterations();
     loop {
@@ -169,10 +162,6 @@ pub fn vote<const D: usize>(
     }
 }
 
-fn check_threshold(threshold: f64) -> Result<(), VotingError> {
-    if (0.0..1.0).contains(&threshold) {
-        return Ok(());
-    }
-    let (name, range) = ("threshold", "from 0 to below 1");
-    Err(VotingError::Parameter { name, value: threshold, range })
+fn check_threshold(threshold: f64) -> Result<(), ParameterError> {
+    error::check("threshold", threshold, (0.0..1.0).contains(&threshold), "from 0 to below 1")
 }

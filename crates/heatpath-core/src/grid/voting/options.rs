@@ -1,6 +1,7 @@
 //! What is asked of a vote.
 
-use super::{Counting, Growth, VotingError, check_threshold};
+use super::{Counting, Growth, check_threshold};
+use crate::error::{ParameterError, check, check_positive};
 use crate::grid::heat::{Duration, HeatOptions};
 
 /// What heat does between two votes.
@@ -93,22 +94,15 @@ impl Default for VotingOptions {
 }
 
 impl VotingOptions {
-    pub(super) fn check(&self) -> Result<(), VotingError> {
-        let parameter = |name, value, range| Err(VotingError::Parameter { name, value, range });
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
         check_threshold(self.threshold())?;
-        let level = self.level();
-        if !(level.is_finite() && level > 0.0) {
-            return parameter("level", level, "a positive finite number");
-        }
+        check_positive("level", self.level())?;
         let shares =
             [("largest_share", self.largest_share), ("settled_share", self.settled_share())];
-        if let Some(&(name, value)) = shares.iter().find(|(_, share)| !(0.0..=1.0).contains(share))
-        {
-            return parameter(name, value, "from 0 to 1");
+        for (name, share) in shares {
+            check(name, share, (0.0..=1.0).contains(&share), "from 0 to 1")?;
         }
-        if self.rounds == 0 {
-            return parameter("rounds", 0.0, "at least 1");
-        }
+        check("rounds", self.rounds as f64, self.rounds > 0, "at least 1")?;
         self.growth.as_ref().map_or(Ok(()), Growth::check)
     }
 

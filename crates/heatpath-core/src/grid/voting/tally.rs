@@ -1,12 +1,12 @@
 //! What has been found up to a round.
 
 use super::density::votes;
-use super::{Round, Stop, Votes, VotingOptions, covered, front};
+use super::{Growth, Round, Stop, Votes, VotingOptions, covered, front};
 use crate::exec::{Cancelled, Exec};
 use crate::grid::heat::Heat;
 use crate::grid::medium::Medium;
 use crate::grid::path::Descent;
-use crate::grid::{Grid, Sources};
+use crate::grid::{Grid, Sources, structure};
 
 /// The list L of Algorithm 1, and the votes up to now.
 pub(super) struct Tally<'a, const D: usize> {
@@ -16,11 +16,13 @@ pub(super) struct Tally<'a, const D: usize> {
     density: Grid<u32, D>,
     kept: Grid<bool, D>,
     open: usize,
+    /// The cells of the structure, with growth: where paths may begin.
+    structure: Option<Vec<usize>>,
     pub(super) rounds: Vec<Round>,
 }
 
 impl<'a, const D: usize> Tally<'a, D> {
-    pub(super) fn new(medium: &'a Medium<D>, sources: &Sources<D>) -> Self {
+    pub(super) fn new(medium: &'a Medium<D>, sources: &Sources<D>, growth: Option<Growth>) -> Self {
         let mut kept = medium.mask().open().map(|_| false);
         sources.points().iter().for_each(|&point| kept[medium.shape().cell_at(point)] = true);
         Self {
@@ -28,7 +30,8 @@ impl<'a, const D: usize> Tally<'a, D> {
             found: sources.clone(),
             density: kept.map(|_| 0),
             kept,
-            open: medium.mask().open().values().iter().filter(|&&open| open).count(),
+            open: positions(medium.mask().open()).len(),
+            structure: growth.map(|growth| positions(&structure(medium, growth.least_speed_sq))),
             rounds: Vec::new(),
         }
     }
@@ -45,8 +48,8 @@ impl<'a, const D: usize> Tally<'a, D> {
         let region = covered(heat, options.level());
         report(0.0)?;
         let shape = self.medium.shape();
-        let ends = match options.growth {
-            Some(growth) => growth.cells(&region, self.medium),
+        let ends = match &self.structure {
+            Some(cells) => cells.iter().copied().filter(|&cell| region.values()[cell]).collect(),
             None => front(&region),
         };
         let ends: Vec<_> = ends.into_iter().map(|cell| shape.centre(cell)).collect();
@@ -95,11 +98,8 @@ impl<'a, const D: usize> Tally<'a, D> {
         let Some(round) = self.rounds.last() else { return 0.0 };
         let most_ends = self.rounds.iter().map(|round| round.ends).max().unwrap_or(0);
         let rounds = self.rounds.len() as f64 / options.most_rounds() as f64;
-        let share = match options.growth {
-            Some(growth) => {
-                let structure = growth.cells(self.medium.mask().open(), self.medium);
-                most_ends as f64 / structure.len() as f64
-            }
+        let share = match &self.structure {
+            Some(cells) => most_ends as f64 / cells.len() as f64,
             None => round.kept as f64 / (options.largest_share * self.open as f64),
         };
         rounds.max(share).min(1.0)
@@ -108,4 +108,10 @@ impl<'a, const D: usize> Tally<'a, D> {
     pub(super) fn votes(self, stopped: Stop) -> Votes<D> {
         Votes { density: self.density, kept: self.kept, rounds: self.rounds, stopped }
     }
+}
+
+/// The positions of the cells that are true.
+pub(super) fn positions<const D: usize>(cells: &Grid<bool, D>) -> Vec<usize> {
+    let cells = cells.values().iter().enumerate();
+    cells.filter(|(_, is_inside)| **is_inside).map(|(cell, _)| cell).collect()
 }
