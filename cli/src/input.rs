@@ -73,15 +73,14 @@ impl<'a, const D: usize> Picture<'a, D> {
         };
         check_size(args.mask.as_deref(), mask.shape(), image.shape())?;
         let mut picture = Self { args, image, mask };
-        if args.margin < 0.0 || args.margin.is_nan() {
-            return Err(Failure::usage(format!(
-                "--margin is {}; it must be 0 or more",
-                args.margin
-            )));
-        }
+        check_not_negative("--margin", args.margin)?;
         if args.margin > 0.0 {
             let unit = picture.image.shape().smallest_spacing();
             picture.mask = picture.mask.shrunk(unit * picture.smoothing(args.margin));
+            if !picture.mask.open().values().contains(&true) {
+                let message = format!("--margin {} leaves no pixel of --mask", args.margin);
+                return Err(Failure::usage(message));
+            }
         }
         if let Some(sigma) = args.normalize {
             let (sigma, exec) = (picture.smoothing(sigma), Exec::single_threaded());
@@ -266,6 +265,14 @@ fn form(args: &MediumArgs, usual: Form) -> Form {
         Some(FormArg::Pointwise) => Form::Pointwise,
         None => usual,
     }
+}
+
+/// Refuses a length that is none.
+pub(crate) fn check_not_negative(option: &str, value: f64) -> Result<(), Failure> {
+    if value >= 0.0 {
+        return Ok(());
+    }
+    Err(Failure::usage(format!("{option} is {value}; it must be 0 or more")))
 }
 
 /// As many numbers as the input has axes.

@@ -116,7 +116,7 @@ fn line<const D: usize>(
     };
     let length: f64 = curves.paths.iter().map(|path| path.physical_length).sum();
     format!(
-        "{} key points{stop}, {seeds} of them seeds, {} apart: {} paths of {length:.1} in all, {} of \
+        "{} key points{stop}, of them seeds: {seeds}, {} apart: {} paths of {length:.1} in all, {} of \
          them close a curve",
         found.points.len(),
         radius,

@@ -2,7 +2,7 @@
 
 use crate::args::{MediumArg, MediumArgs, OptionalSourceArgs, PolarityArg, StructureArgs};
 use crate::failure::Failure;
-use crate::input::Picture;
+use crate::input::{Picture, check_not_negative};
 use heatpath_core::grid::medium::Medium;
 use heatpath_core::grid::skeleton::{Graph, radii, thin};
 use heatpath_core::grid::{Grid, Sources, seeds, structure, structure_level};
@@ -27,6 +27,7 @@ impl<const D: usize> Structure<D> {
         let mut points = picture.optional_sources(sources)?;
         let longest = picture.image.shape().longest_side() as f64;
         let least_extent = args.extent.unwrap_or(longest / 16.0);
+        check_not_negative("--extent", least_extent)?;
         let compares = matches!(medium.medium, MediumArg::Conductivity | MediumArg::Combined);
         if points.is_empty() && compares && medium.reference.is_none() {
             // Tubes have seeds, and these the grey values to compare with.

@@ -3,7 +3,7 @@
 use crate::args::{VoteArgs, VotingMethodArg};
 use crate::extraction::Extraction;
 use crate::failure::Failure;
-use crate::input::{Input, Picture};
+use crate::input::{Input, Picture, check_not_negative};
 use crate::output;
 use crate::run::run;
 use crate::structure::Structure;
@@ -20,6 +20,7 @@ use heatpath_io::{
 
 pub(crate) fn vote(args: &VoteArgs) -> Result<(), Failure> {
     check_options(args)?;
+    check_not_negative("--prune", args.prune)?;
     output::check(args.output.as_deref(), &Extraction::<2>::ENDINGS, &args.out)?;
     output::check_field("--density", args.density.as_deref(), args.output.as_deref(), &args.out)?;
     match Input::read(&args.picture, &[&args.sources.source])? {
@@ -165,7 +166,7 @@ fn line<const D: usize>(votes: &Votes<D>, extraction: &Extraction<'_, D>) -> Str
     let kept = votes.kept.values().iter().filter(|&&kept| kept).count();
     let graph = extraction.graph;
     format!(
-        "{} seeds, {} rounds ({stopped}): {kept} pixels kept, {} branches of {:.1} in all",
+        "seeds: {}, rounds: {} ({stopped}): {kept} pixels kept, {} branches of {:.1} in all",
         extraction.seeds.len(),
         votes.rounds.len(),
         graph.branches.len(),

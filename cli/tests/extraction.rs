@@ -153,6 +153,10 @@ fn what_cannot_be_found_is_said() {
     bench.fails(length, 2, &["--iterations", "length"]);
     bench.fails("vote fork.npy --gap -1 -o x.json", 2, &["gap", "-1"]);
     bench.fails("vote fork.npy --density x.npy -o x.npy", 2, &["two files"]);
-    bench.fails("vote fork.npy --margin -1 --mask truth.npy -o x.json", 2, &["--margin", "-1"]);
+    let masked = "vote fork.npy --mask truth.npy -o x.json";
+    bench.fails(&format!("{masked} --margin -1"), 2, &["--margin", "-1"]);
+    bench.fails(&format!("{masked} --margin 99"), 2, &["--margin 99", "no pixel"]);
+    bench.fails("vote fork.npy --prune nan -o x.json", 2, &["--prune", "NaN"]);
+    bench.fails("keypoints fork.npy --extent -5 -o x.json", 2, &["--extent", "-5"]);
     bench.fails("keypoints fork.npy --radius 1 -o x.json", 2, &["radius", "1"]);
 }
