@@ -25,12 +25,17 @@
 mod analysis;
 mod block;
 mod cholesky;
+mod dissection;
+mod pins;
+mod plain;
 mod refine;
 mod solve;
 mod wide;
 
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
+pub use dissection::nested_dissection;
+pub(crate) use pins::{Pin, Pinned};
 pub use solve::Entries;
 pub use wide::Wide;
 

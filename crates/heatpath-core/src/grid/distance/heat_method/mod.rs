@@ -3,7 +3,6 @@
 mod direction;
 mod margin;
 mod near;
-mod pins;
 mod poisson;
 
 use super::DistanceMap;
@@ -12,8 +11,8 @@ use crate::grid::heat::{Implicit, ImplicitError, ImplicitOptions};
 use crate::grid::medium::{Medium, MediumError};
 use crate::grid::source::shares;
 use crate::grid::{Grid, PointError, Sources, check_points};
+use crate::linear::Pin;
 use near::Near;
-use pins::Pin;
 use poisson::Poisson;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -246,8 +245,8 @@ impl<'a, const D: usize> HeatMethod<'a, D> {
             self.poisson.pin(cell, slowness * shape.physical_distance(point, shape.centre(cell)))
         };
         let mut pins: Vec<Pin> = sources.points().iter().map(pin).collect();
-        pins.sort_by(|a, b| a.cell.cmp(&b.cell).then(a.value.total_cmp(&b.value)));
-        pins.dedup_by_key(|pin| pin.cell);
+        pins.sort_by(|a, b| a.parts[0].0.cmp(&b.parts[0].0).then(a.value.total_cmp(&b.value)));
+        pins.dedup_by_key(|pin| pin.parts[0].0);
         pins
     }
 }

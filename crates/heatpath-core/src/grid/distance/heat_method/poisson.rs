@@ -1,12 +1,11 @@
 //! The Poisson equation: the distances whose differences across faces are nearest to given ones.
 
 use super::Faces;
-use super::pins::{Pin, Pinned};
 use crate::Exec;
 use crate::grid::heat::{Elimination, ImplicitError, check_memory, faces};
 use crate::grid::medium::Medium;
 use crate::grid::{Grid, Mask};
-use crate::linear::{Cholesky, Entries, Wide};
+use crate::linear::{Cholesky, Entries, Pin, Pinned, Wide};
 
 /// The weighted Laplacian with free borders, factored once for all sources.
 ///
@@ -69,7 +68,7 @@ impl<const D: usize> Poisson<D> {
 
     /// A pin in a cell.
     pub(super) fn pin(&self, cell: usize, value: f64) -> Pin {
-        Pin { cell, component: self.components[cell], value }
+        Pin { parts: vec![(cell, 1.0)], component: self.components[cell], value }
     }
 
     /// The right-hand side for given differences: their weighted divergence.
@@ -104,8 +103,9 @@ impl<const D: usize> Poisson<D> {
             if active.is_empty() {
                 break;
             }
-            let places = &self.elimination.places;
-            let sides: Vec<Entries> = active.iter().map(|system| system.side(places)).collect();
+            let charge = |(cell, charge)| (self.elimination.places[cell], Wide::from(charge));
+            let side = |system: &&mut Pinned| system.side().into_iter().map(charge).collect();
+            let sides: Vec<Entries> = active.iter().map(side).collect();
             let solutions = self.solutions(&sides, exec);
             active.iter_mut().zip(&solutions).for_each(|(system, x)| system.step(x));
         }

@@ -1,24 +1,33 @@
-//! Right-hand sides of the Poisson equation with cells whose values are given.
+//! Right-hand sides of the Poisson equation with places whose values are given.
 
-use crate::linear::{Entries, Wide};
 use std::collections::BTreeMap;
 
-/// A cell, the component it lies in, and its value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pin {
-    pub(super) cell: usize,
-    pub(super) component: usize,
-    pub(super) value: f64,
+/// A place whose value is given.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Pin {
+    /// The unknowns of which the value is a weighted sum, with their weights, which add up to 1.
+    pub(crate) parts: Vec<(usize, f64)>,
+    /// The component that they lie in.
+    pub(crate) component: usize,
+    /// The value.
+    pub(crate) value: f64,
+}
+
+impl Pin {
+    /// The value here of a field.
+    fn of(&self, field: &[f64]) -> f64 {
+        self.parts.iter().map(|&(unknown, weight)| weight * field[unknown]).sum()
+    }
 }
 
 /// A right-hand side with pins, on the way to its solution.
 ///
-/// A pin puts a charge into its cell, as large as it takes. The charges are found by conjugate
+/// A pin puts a charge into its place, as large as it takes. The charges are found by conjugate
 /// gradients, each step of which is one solution of the prepared system. They add up to zero in each
 /// component; so a pin alone in its component has none, and only says which constant is the right
 /// one.
 #[derive(Debug)]
-pub(super) struct Pinned {
+pub(crate) struct Pinned {
     pins: Vec<Pin>,
     /// The charge of each pin that the next solution is for, and what is right of it already.
     search: Vec<f64>,
@@ -32,7 +41,7 @@ const TOLERANCE: f64 = 1e-10;
 
 impl Pinned {
     /// The pins and the solution without charges.
-    pub(super) fn new(pins: Vec<Pin>, values: Vec<f64>) -> Self {
+    pub(crate) fn new(pins: Vec<Pin>, values: Vec<f64>) -> Self {
         let mut system = Self { pins, search: vec![], residual: vec![], values, steps: 0 };
         system.residual = system.without_means(system.missing());
         system.search = system.residual.clone();
@@ -40,20 +49,22 @@ impl Pinned {
     }
 
     /// Whether no step is needed any more. Twice as many as there are pins do not help.
-    pub(super) fn is_finished(&self) -> bool {
+    pub(crate) fn is_finished(&self) -> bool {
         largest(&self.residual) <= TOLERANCE * largest(&self.values)
             || self.steps > 2 * self.pins.len()
     }
 
-    /// The right-hand side of the next step.
-    pub(super) fn side(&self, places: &[usize]) -> Entries {
+    /// The right-hand side of the next step: unknowns and their charges.
+    pub(crate) fn side(&self) -> Vec<(usize, f64)> {
         let charges = self.pins.iter().zip(&self.search);
-        charges.map(|(pin, &charge)| (places[pin.cell], Wide::from(charge))).collect()
+        charges
+            .flat_map(|(pin, charge)| pin.parts.iter().map(move |&(place, w)| (place, w * charge)))
+            .collect()
     }
 
     /// Makes a step with the solution for [`side`](Self::side).
-    pub(super) fn step(&mut self, solution: &[f64]) {
-        let at_pins: Vec<f64> = self.pins.iter().map(|pin| solution[pin.cell]).collect();
+    pub(crate) fn step(&mut self, solution: &[f64]) {
+        let at_pins: Vec<f64> = self.pins.iter().map(|pin| pin.of(solution)).collect();
         let square = dot(&self.residual, &self.residual);
         let length = square / dot(&self.search, &at_pins);
         add(&mut self.values, length, solution);
@@ -67,18 +78,22 @@ impl Pinned {
 
     /// The solution with the constant in each component with which the pins have their values;
     /// infinite in components without pins.
-    pub(super) fn finish(mut self, components: &[usize]) -> Vec<f64> {
+    pub(crate) fn finish(mut self, components: &[usize]) -> Vec<f64> {
         let constants = self.means(&self.missing());
         for (value, component) in self.values.iter_mut().zip(components) {
             *value += constants.get(component).copied().unwrap_or(f64::INFINITY);
         }
-        self.pins.iter().for_each(|pin| self.values[pin.cell] = pin.value);
+        for pin in &self.pins {
+            if let [(unknown, _)] = pin.parts[..] {
+                self.values[unknown] = pin.value;
+            }
+        }
         self.values
     }
 
     /// What the values of the pins lack.
     fn missing(&self) -> Vec<f64> {
-        self.pins.iter().map(|pin| pin.value - self.values[pin.cell]).collect()
+        self.pins.iter().map(|pin| pin.value - pin.of(&self.values)).collect()
     }
 
     /// `values` of the pins, each less the mean of its component.
