@@ -56,7 +56,12 @@ pub(crate) fn colour_of(value: f64, low: f64, high: f64) -> Option<[u8; 3]> {
 
 /// The smallest and the largest finite value, if any value is finite.
 pub(crate) fn finite_range(field: &Grid<f64, 2>) -> Option<(f64, f64)> {
-    let finite = field.values().iter().copied().filter(|value| value.is_finite());
+    finite_range_of(field.values())
+}
+
+/// [`finite_range`] of a list.
+pub(crate) fn finite_range_of(values: &[f64]) -> Option<(f64, f64)> {
+    let finite = values.iter().copied().filter(|value| value.is_finite());
     finite.fold(None, |range, value| match range {
         None => Some((value, value)),
         Some((low, high)) => Some((value.min(low), value.max(high))),

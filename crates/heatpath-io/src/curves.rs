@@ -36,7 +36,9 @@ impl<const D: usize> Curves<D> {
 /// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at
 ///   0,0), as large as the picture of the given `shape`, to be laid over it;
 /// - `.swc`: each path as a tree in physical units, its source the root, the radii 0;
-/// - `.vtp`: polylines in physical units, for VTK and `ParaView`.
+/// - `.vtp`: polylines in physical units, for VTK and `ParaView`, with the arrays `end` (the path's
+///   number), `source`, `length` (physical) and `distance`; the source and the distance are -1 where
+///   there is none.
 ///
 /// # Errors
 /// The format is unknown or for pictures only, the folder is missing, the file exists and
@@ -56,7 +58,7 @@ pub fn write_curves<const D: usize>(
         "swc" => swc::write_paths(out, points(curves), curves.spacing),
         "vtp" => {
             let lines: Vec<_> = points(curves).map(|points| (points, &[][..])).collect();
-            vtp::write(out, &lines, curves.spacing)
+            vtp::write(out, &lines, curves.spacing, &arrays(curves))
         }
         _ => out.write_all(svg::drawing(curves, shape).as_bytes()),
     })
@@ -64,6 +66,22 @@ pub fn write_curves<const D: usize>(
 
 fn points<const D: usize>(curves: &Curves<D>) -> impl Iterator<Item = &[[f64; D]]> {
     curves.paths.iter().map(|path| path.points.as_slice())
+}
+
+/// What a polyline of VTK knows of its path.
+fn arrays<const D: usize>(curves: &Curves<D>) -> [vtp::LineArray; 4] {
+    let column = |value: &dyn Fn(&Curve<D>) -> f64| curves.paths.iter().map(value).collect();
+    let source = |path: &Curve<D>| match path.ending {
+        Ending::Source(source) => source as f64,
+        _ => -1.0,
+    };
+    let distance = |path: &Curve<D>| if path.distance.is_finite() { path.distance } else { -1.0 };
+    [
+        ("end", (0..curves.paths.len()).map(|end| end as f64).collect()),
+        ("source", column(&source)),
+        ("length", column(&|path| path.physical_length)),
+        ("distance", column(&distance)),
+    ]
 }
 
 /// The curves as JSON:

@@ -1,7 +1,9 @@
 //! What can go wrong when files are read or written.
 
 use crate::Format;
+use crate::mesh::MeshFormat;
 use heatpath_core::grid::ShapeError;
+use heatpath_core::mesh::clean::CleanError;
 use std::io;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -75,6 +77,34 @@ pub enum ReadError {
         /// What was wrong.
         reason: String,
     },
+    /// Neither the content nor the ending belongs to a known format of meshes.
+    #[error(
+        "{}: the content is not a known mesh; PLY, OBJ, STL, OFF, VTK, VTP, glTF and FreeSurfer \
+         surfaces are accepted",
+        path.display()
+    )]
+    UnrecognisedMesh {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A mesh file is damaged, truncated or uses an unsupported feature of its format.
+    #[error("{}: not readable as {format}: {reason}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// The format that its content or its ending announces.
+        format: MeshFormat,
+        /// What was wrong.
+        reason: String,
+    },
+    /// What a mesh file holds makes no mesh.
+    #[error("{}: {source}", path.display())]
+    Clean {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong.
+        source: CleanError,
+    },
     /// The header claims more pixels than are accepted.
     #[error(
         "{}: {} are too large; at most {most} are accepted",
@@ -109,6 +139,14 @@ pub enum ReadError {
         path.display()
     )]
     Shape {
+        /// The file.
+        path: PathBuf,
+        /// The array's shape, as its file gives it.
+        shape: Vec<u64>,
+    },
+    /// The array has more than one axis.
+    #[error("{}: an array of shape {shape:?}; (values,) is needed", path.display())]
+    Vector {
         /// The file.
         path: PathBuf,
         /// The array's shape, as its file gives it.
@@ -263,6 +301,24 @@ pub enum WriteError {
         picture: [usize; 2],
         /// The columns and rows of the field.
         field: [usize; 2],
+    },
+    /// The format holds a mesh, but no values of its vertices.
+    #[error("{}: the format holds no values of vertices; .ply, .vtp and .vtk do", path.display())]
+    NoValues {
+        /// The output.
+        path: PathBuf,
+    },
+    /// There are more or fewer values than vertices.
+    #[error("{}: {given} values of {name:?} were given for {expected} vertices", path.display())]
+    Values {
+        /// The output.
+        path: PathBuf,
+        /// The array.
+        name: String,
+        /// How many values it has.
+        given: usize,
+        /// How many there should be.
+        expected: usize,
     },
     /// The operating system or the encoder refused.
     #[error("{}: cannot be written: {source}", path.display())]

@@ -47,7 +47,7 @@ pub fn write_graph<const D: usize>(
         _ => {
             let lines = graph.branches.iter();
             let lines = lines.map(|branch| (branch.points.as_slice(), branch.radii.as_slice()));
-            vtp::write(out, &lines.collect::<Vec<_>>(), graph.shape.spacing())
+            vtp::write(out, &lines.collect::<Vec<_>>(), graph.shape.spacing(), &[])
         }
     })
 }

@@ -33,13 +33,18 @@ const INK: [u8; 3] = [32; 3];
 /// number if it is small, and a colour bar to its right.
 pub(crate) fn with_legend(field: &Grid<f64, 2>, title: Option<&str>) -> RgbImage {
     let map = enlarged(&colour_map(field), enlargement(field.shape().size()) as u32);
-    let labels = labels(field);
+    with_bar(&map, finite_range(field), title)
+}
+
+/// A picture with a bar of the colours of this range to its right, if there is one.
+pub(crate) fn with_bar(map: &RgbImage, range: Option<(f64, f64)>, title: Option<&str>) -> RgbImage {
+    let labels = labels(range);
     let top = if title.is_some() { TITLE } else { 0 };
     let (width, height) = (map.width() as usize, (map.height() as usize).max(LOWEST));
     let widest = labels.iter().map(|label| text::width(label)).max().unwrap_or(0);
     let right = width + GAP + BAR + TICK + GAP / 2 + widest + GAP;
     let mut canvas = RgbImage::from_pixel(right as u32, (top + height) as u32, PAPER);
-    imageops::replace(&mut canvas, &map, 0, top as i64);
+    imageops::replace(&mut canvas, map, 0, top as i64);
     if let Some(title) = title {
         text::draw(&mut canvas, [4, 4], title, INK);
     }
@@ -59,8 +64,8 @@ pub(crate) fn enlarged(picture: &RgbImage, factor: u32) -> RgbImage {
 
 /// The numbers at the ticks, the smallest first: one if all values are equal, none if none is
 /// finite.
-fn labels(field: &Grid<f64, 2>) -> Vec<String> {
-    match finite_range(field) {
+fn labels(range: Option<(f64, f64)>) -> Vec<String> {
+    match range {
         None => Vec::new(),
         Some((low, high)) if low == high => vec![text::short(low)],
         Some((low, high)) => (0..TICKS)

@@ -8,10 +8,16 @@
 //! | in | a picture or a volume, as the file says ([`ImageFile`]) | as these |
 //! | in | points ([`read_points`]) | CSV, JSON |
 //! | in | curves ([`CurveFile`]) | JSON, CSV, SWC |
+//! | in | triangle meshes ([`read_mesh`]) | PLY, OBJ, STL, OFF, VTK, VTP, glTF, `FreeSurfer` |
+//! | in | values of their vertices ([`read_mesh_values`]) | NPY, CSV, `FreeSurfer` |
 //! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
 //! | out | fields and masks ([`write_field`], [`write_mask`]) | NPY, TIFF, PNG |
 //! | out | curves ([`write_curves`]) | JSON, CSV, SVG, SWC, VTP |
 //! | out | skeleton graphs ([`write_graph`]) | JSON, CSV, SWC, VTP |
+//! | out | meshes and values of their vertices ([`write_mesh`]) | PLY, VTP, VTK; bare OBJ, OFF, STL |
+//! | out | the values alone ([`write_mesh_values`]) | CSV, NPY |
+//! | out | paths on meshes ([`write_mesh_paths`]) | JSON, CSV, SWC, VTP |
+//! | out | a mesh with values and paths ([`write_mesh_picture`]) | PNG |
 //! | out | recall and precision ([`write_scores`]) | JSON, CSV |
 //! | out | a result on its picture ([`write_overlay`]) | PNG |
 //!
@@ -21,7 +27,7 @@
 //! trusted: no size is believed before the file is long enough for it, and each error is one line
 //! that names the file, what was wrong and what would have been accepted. Outputs appear complete
 //! or not at all ([`write_atomically`]). Well-kept crates do the formats; this one holds what lies
-//! between them and a [`Grid`](heatpath_core::grid::Grid).
+//! between them and a [`Grid`](heatpath_core::grid::Grid), and the formats of meshes.
 //!
 //! ```
 //! use heatpath_core::grid::{Grid, Shape};
@@ -46,6 +52,7 @@ pub mod field;
 pub mod graph;
 mod info;
 mod legend;
+pub mod mesh;
 pub mod output;
 pub mod overlay;
 pub mod picture;
@@ -65,6 +72,11 @@ pub use error::{ReadError, WriteError};
 pub use field::{FieldFormat, FieldStyle, write_field, write_mask};
 pub use graph::{graph_json, write_graph};
 pub use info::{Info, info};
+pub use mesh::{
+    MeshFile, MeshFormat, MeshPicture, Up, View, mesh_curves, read_mesh, read_mesh_from_bytes,
+    read_mesh_values, render_mesh, write_mesh, write_mesh_paths, write_mesh_picture,
+    write_mesh_values,
+};
 pub use output::{check_dimension, check_output, write_atomically};
 pub use overlay::{Overlay, write_overlay};
 pub use picture::{

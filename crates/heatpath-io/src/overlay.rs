@@ -18,16 +18,16 @@ use tiny_skia::{
 /// How much of a field's colour covers the picture.
 const COVER: f64 = 0.5;
 
-const BLACK: [u8; 4] = [0, 0, 0, 255];
-const WHITE: [u8; 4] = [255, 255, 255, 255];
+pub(crate) const BLACK: [u8; 4] = [0, 0, 0, 255];
+pub(crate) const WHITE: [u8; 4] = [255, 255, 255, 255];
 const YELLOW: [u8; 4] = [255, 225, 0, 255];
-const RED: [u8; 4] = [230, 20, 30, 255];
+pub(crate) const RED: [u8; 4] = [230, 20, 30, 255];
 /// Under each curve, so that it shows on light ground.
-const SHADOW: [u8; 4] = [0, 20, 40, 200];
+pub(crate) const SHADOW: [u8; 4] = [0, 20, 40, 200];
 /// Curves that reached a source.
-const CYAN: [u8; 4] = [0, 210, 255, 255];
+pub(crate) const CYAN: [u8; 4] = [0, 210, 255, 255];
 /// Curves that did not.
-const ORANGE: [u8; 4] = [255, 150, 0, 255];
+pub(crate) const ORANGE: [u8; 4] = [255, 150, 0, 255];
 
 /// What is drawn on a picture.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,12 +2,17 @@
 
 use std::io::{self, Write};
 
+/// Values of polylines by name, one each.
+pub(crate) type LineArray = (&'static str, Vec<f64>);
+
 /// Writes polylines, given in pixel coordinates with a radius for each point or none at all, as VTK
-/// XML poly data in text, in physical units.
+/// XML poly data in text, in physical units; `arrays` must be finite, as text has no word for other
+/// values that all versions of VTK read.
 pub(crate) fn write<const D: usize>(
     out: &mut dyn Write,
     lines: &[(&[[f64; D]], &[f64])],
     spacing: [f64; D],
+    arrays: &[LineArray],
 ) -> io::Result<()> {
     let points: usize = lines.iter().map(|(points, _)| points.len()).sum();
     let has_radii = lines.iter().any(|(_, radii)| !radii.is_empty());
@@ -20,6 +25,13 @@ pub(crate) fn write<const D: usize>(
         let radii = lines.iter().flat_map(|(_, radii)| radii.iter());
         array(out, "Float64", "radius", 1, radii.map(|&radius| known(radius)))?;
         writeln!(out, "</PointData>")?;
+    }
+    if !arrays.is_empty() {
+        writeln!(out, "<CellData>")?;
+        for (name, values) in arrays {
+            array(out, "Float64", name, 1, values.iter())?;
+        }
+        writeln!(out, "</CellData>")?;
     }
     writeln!(out, "<Points>")?;
     let coordinates = lines.iter().flat_map(|(points, _)| points.iter());

@@ -137,6 +137,11 @@ pub(crate) fn decode(bytes: &[u8], path: &Path) -> Result<Raster, ReadError> {
     }
 }
 
+/// The numbers of an NPY array with one axis.
+pub(crate) fn decode_vector(bytes: &[u8], path: &Path) -> Result<Vec<f64>, ReadError> {
+    npy::vector(&Input { bytes, path, format: Format::Npy })
+}
+
 /// What a decoder is given, and the errors it may return.
 struct Input<'a> {
     bytes: &'a [u8],
@@ -192,7 +197,7 @@ impl Input<'_> {
 }
 
 /// A decoder's words, which may quote the file, fit for one line of a terminal.
-fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     let line = plain.split_whitespace().collect::<Vec<_>>().join(" ");
     match line.char_indices().nth(200) {

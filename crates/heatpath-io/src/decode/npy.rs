@@ -32,6 +32,21 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     })
 }
 
+/// An array of shape (values,) or (values, 1).
+pub(super) fn vector(input: &Input<'_>) -> Result<Vec<f64>, ReadError> {
+    npy_header::check(input.bytes).map_err(|e| input.broken(e))?;
+    let array = NpyFile::new(input.bytes).map_err(|e| input.broken(e))?;
+    let sample = sample_type(input, &array.dtype())?;
+    let (&[length] | &[length, 1]) = array.shape() else {
+        let (path, shape) = (input.path.to_owned(), array.shape().to_vec());
+        return Err(ReadError::Vector { path, shape });
+    };
+    let item = array.dtype().num_bytes().unwrap_or(1) as u64;
+    input.check_size(&[length], length.saturating_mul(item))?;
+    let samples = read(input, array, sample)?;
+    Ok(samples.values(0..samples.len()))
+}
+
 /// Where the element at position `i` of C order, in which the last index runs fastest, stands in
 /// Fortran order, in which the first one does.
 fn fortran_position(shape: &[u64], i: usize) -> usize {

@@ -1,4 +1,4 @@
-//! The paper's figures 1 to 6, 9, 10 and 12 to 20 remade on generated pictures.
+//! The paper's figures 1 to 6 and 9 to 20 remade on generated pictures and a generated mesh.
 //!
 //! Each test holds what the figure shows as a number, and the figure itself: the pictures in
 //! `docs/figures` are compared with what is drawn now. `HEATPATH_BLESS=1` draws them anew; a
@@ -7,6 +7,7 @@
 
 mod automatic;
 mod key_points;
+mod meshes;
 mod panels;
 mod paths;
 mod scenes;
