@@ -1,9 +1,11 @@
 //! The command line, described.
 
+use crate::mesh::args::MeshCommand;
 use clap::{ArgGroup, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// Geodesic distances and minimal paths on images, by letting heat flow through them.
+/// Geodesic distances and minimal paths on images and triangle meshes, by letting heat flow through
+/// them.
 ///
 /// Images are pictures (PNG, JPEG, TIFF, PNM, NPY) or volumes: TIFF with several grey pages of one
 /// size, or NPY with three axes (slices, rows, columns).
@@ -33,6 +35,9 @@ pub(crate) enum Command {
     Keypoints(KeyPointsArgs),
     /// Write the medium alone (k D, the squared speed) to look at what the heat will see.
     Medium(MediumCommandArgs),
+    /// Distances, paths and curvatures on triangle meshes.
+    #[command(subcommand)]
+    Mesh(MeshCommand),
     /// Say how well extracted curves agree with a truth: recall and precision by length.
     Evaluate(EvaluateArgs),
     /// Say what is in a file: size, type, range.
@@ -263,7 +268,7 @@ pub(crate) struct EvaluateArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
-    /// The file: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes.
+    /// The file: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes. Or a mesh.
     pub(crate) input: PathBuf,
     /// Print one JSON object.
     #[arg(long)]
@@ -612,11 +617,11 @@ fn step(text: &str) -> Result<StepArg, String> {
     }
 }
 
-fn numbers(text: &str) -> Option<Vec<f64>> {
+pub(crate) fn numbers(text: &str) -> Option<Vec<f64>> {
     text.split(',').map(|part| part.trim().parse().ok()).collect()
 }
 
-fn pair(text: &str) -> Result<[f64; 2], String> {
+pub(crate) fn pair(text: &str) -> Result<[f64; 2], String> {
     let pair = numbers(text).and_then(|numbers| numbers.try_into().ok());
     pair.ok_or_else(|| "expected two numbers with a comma between them".to_owned())
 }

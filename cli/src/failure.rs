@@ -49,6 +49,11 @@ impl Failure {
         Self::new(Kind::NoAnswer, &message)
     }
 
+    /// Somebody asked to stop.
+    pub(crate) fn interrupted() -> Self {
+        Self::new(Kind::Interrupted, &"interrupted")
+    }
+
     fn new(kind: Kind, message: &dyn fmt::Display) -> Self {
         Self { kind, message: message.to_string() }
     }
@@ -90,7 +95,7 @@ impl From<MediumError> for Failure {
     fn from(error: MediumError) -> Self {
         match error {
             MediumError::Parameter { .. } | MediumError::Smoothing(_) => Self::usage(error),
-            MediumError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            MediumError::Cancelled(_) => Self::interrupted(),
             _ => Self::bad_input(error),
         }
     }
@@ -111,7 +116,7 @@ impl From<NoExposure> for Failure {
 impl From<HeatError> for Failure {
     fn from(error: HeatError) -> Self {
         match error {
-            HeatError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            HeatError::Cancelled(_) => Self::interrupted(),
             HeatError::Range => Self::no_answer(error),
             HeatError::StepTooLarge { .. } => {
                 Self::bad_input(format!("{error}; `--step auto` chooses one"))
@@ -124,7 +129,7 @@ impl From<HeatError> for Failure {
 impl From<ImplicitError> for Failure {
     fn from(error: ImplicitError) -> Self {
         match error {
-            ImplicitError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            ImplicitError::Cancelled(_) => Self::interrupted(),
             ImplicitError::TooLarge(_) => {
                 Self::bad_input(format!("{error}: `--solver explicit`; --memory allows more"))
             }
@@ -137,7 +142,7 @@ impl From<ImplicitError> for Failure {
 impl From<EikonalError> for Failure {
     fn from(error: EikonalError) -> Self {
         match error {
-            EikonalError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            EikonalError::Cancelled(_) => Self::interrupted(),
             EikonalError::Target(error) => error.into(),
             EikonalError::TooLarge { .. } => Self::bad_input(error),
             EikonalError::InitialCount { .. }
@@ -153,7 +158,7 @@ impl From<HeatMethodError> for Failure {
             HeatMethodError::Implicit(error) => error.into(),
             HeatMethodError::Medium(error) => error.into(),
             HeatMethodError::Point(error) => error.into(),
-            HeatMethodError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            HeatMethodError::Cancelled(_) => Self::interrupted(),
             HeatMethodError::Tensor => Self::usage(error),
         }
     }
@@ -174,7 +179,7 @@ impl From<VotingError> for Failure {
             VotingError::Heat(error) => error.into(),
             VotingError::Eikonal(error) => error.into(),
             VotingError::End(error) => error.into(),
-            VotingError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            VotingError::Cancelled(_) => Self::interrupted(),
             VotingError::Parameter { .. } => Self::usage(error),
         }
     }
@@ -186,7 +191,7 @@ impl From<KeyPointError> for Failure {
             KeyPointError::Heat(error) => error.into(),
             KeyPointError::Eikonal(error) => error.into(),
             KeyPointError::Point(error) => error.into(),
-            KeyPointError::Cancelled(_) => Self::new(Kind::Interrupted, &"interrupted"),
+            KeyPointError::Cancelled(_) => Self::interrupted(),
             KeyPointError::Parameter { .. } => Self::usage(error),
         }
     }

@@ -3,10 +3,17 @@
 use crate::args::InfoArgs;
 use crate::failure::Failure;
 use crate::input::size_text;
+use crate::mesh::MeshFacts;
 use crate::output;
+use heatpath_io::ReadError;
+use heatpath_io::mesh::read_mesh;
+use serde::Serialize;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
-    let info = heatpath_io::info(&args.input)?;
+    let info = match heatpath_io::info(&args.input) {
+        Err(ReadError::Unrecognised { .. }) => return mesh_info(args),
+        info => info?,
+    };
     if args.json {
         return output::print_json(&info);
     }
@@ -23,4 +30,44 @@ pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
         info.channels,
         info.sample,
     ))
+}
+
+/// What `--json` prints of a mesh.
+#[derive(Serialize)]
+struct MeshInfo {
+    format: String,
+    /// The corners of the bounding box.
+    bounds: [[f64; 3]; 2],
+    mean_edge: f64,
+    values: Vec<String>,
+    mesh: MeshFacts,
+}
+
+fn mesh_info(args: &InfoArgs) -> Result<(), Failure> {
+    let file = read_mesh(&args.input).map_err(|error| match error {
+        ReadError::UnrecognisedMesh { path } => {
+            let path = path.display();
+            Failure::bad_input(format!("{path}: the content is no known picture and no known mesh"))
+        }
+        error => error.into(),
+    })?;
+    let cleaned = file.clean(file.usual_options())?;
+    let values: Vec<String> = file.arrays.iter().map(|(name, _)| name.clone()).collect();
+    let (vertices, faces) = (cleaned.mesh.points().len(), cleaned.mesh.faces().len());
+    let (bounds, lengths) = (cleaned.mesh.bounds(), cleaned.mesh.edge_lengths());
+    let mean_edge = lengths.iter().sum::<f64>() / lengths.len() as f64;
+    if args.json {
+        let mesh = MeshFacts::new(vertices, faces, &cleaned.report);
+        let format = file.format.to_string();
+        return output::print_json(&MeshInfo { format, bounds, mean_edge, values, mesh });
+    }
+    let named = if values.is_empty() { "none".to_owned() } else { values.join(", ") };
+    let input = args.input.display();
+    output::print(&format!(
+        "{input}: {}, {vertices} vertices, {faces} triangles, values: {named}",
+        file.format
+    ))?;
+    let [low, high] = bounds.map(|corner| corner.map(|x| x.to_string()).join(","));
+    output::print(&format!("from {low} to {high}, mean edge {mean_edge:.6}"))?;
+    cleaned.report.to_string().lines().try_for_each(output::print)
 }

@@ -18,6 +18,7 @@ mod info;
 mod input;
 mod keypoints;
 mod medium;
+mod mesh;
 mod output;
 mod path;
 mod run;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Command::Vote(args) => vote::vote(&args),
         Command::Keypoints(args) => keypoints::keypoints(&args),
         Command::Medium(args) => medium::medium(&args),
+        Command::Mesh(command) => mesh::mesh(&command),
         Command::Evaluate(args) => evaluate::evaluate(&args),
         Command::Info(args) => info::info(&args),
         Command::Completions(args) => completions::completions(&args),
