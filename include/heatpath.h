@@ -1,10 +1,11 @@
-/* heatpath: geodesic distances and paths on images and volumes by letting heat flow through them.
+/* heatpath: geodesic distances and paths on images, volumes and triangle meshes by letting heat flow
+ * through them.
  *
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths and
- * hp_solver. Nothing is printed, and no state of
+ * wrong. All memory stays the caller's, except for hp_paths, hp_solver, hp_mesh and
+ * hp_mesh_solver. Nothing is printed, and no state of
  * the process is changed; threads are started anew for a call and end before it returns.
  * All functions may be called from any thread.
  *
@@ -39,13 +40,13 @@
 /** A pointer is NULL or misaligned, the size of a struct is wrong, or an option makes no sense. */
 #define HP_INVALID_ARGUMENT 1
 
-/** The description of a buffer is wrong: its type, sizes, strides or spacing. */
+/** The description of a buffer or list is wrong: its type, sizes, strides or spacing. */
 #define HP_INVALID_BUFFER 2
 
-/** A pixel is infinite or not a number, or a given medium is not positive somewhere. */
+/** A pixel or value is infinite or not a number, or a given medium is not positive somewhere. */
 #define HP_INVALID_IMAGE 3
 
-/** A source or an end is missing, outside the image, inside a wall, or not a number. */
+/** A source or an end is missing, outside the image, inside a wall, not on the mesh, or not a number. */
 #define HP_INVALID_POINT 4
 
 /** The time step is larger than the medium allows; the message says how large it may be. */
@@ -71,6 +72,12 @@
 
 /** The medium is slower in places than the range of numbers allows. */
 #define HP_RANGE 11
+
+/**
+ * Points and faces are no mesh: there is no face, a face uses a vertex that does not exist, or a
+ * coordinate is infinite or not a number; or faces lie in each other, and HP_MESH_EXACT does not end.
+ */
+#define HP_INVALID_MESH 12
 
 /** Pixels are uint8_t. */
 #define HP_U8 1
@@ -190,13 +197,114 @@
  */
 #define HP_ENDED_NOT_REACHED 3
 
-/** The path was given up on the way, after more steps than the image should need. */
+/**
+ * The path was given up on the way: after more steps than the image should need, or where nothing
+ * leads down the distances of a mesh.
+ */
 #define HP_ENDED_STEP_LIMIT 4
 
+/** An isoline that ends at the border of a mesh, or where others meet it. */
+#define HP_ENDED_OPEN 5
+
+/** An isoline whose last point is joined to the first. */
+#define HP_ENDED_CLOSED 6
+
+/** Numbers are int64_t; in hp_array only. */
+#define HP_I64 9
+
+/** Numbers are uint64_t; in hp_array only. */
+#define HP_U64 10
+
+/** Distances are lengths on the surface. The default. */
+#define HP_MESH_UNIFORM 1
+
 /**
- * Paths, one for each end point, in the order of the end points.
+ * hp_mesh_options.values are the squared speed P at each vertex: lengths are ds / sqrt(P). The
+ * slowness of a face is the mean of 1 / sqrt(P) at its corners.
+ */
+#define HP_MESH_SPEED_SQ 2
+
+/** hp_mesh_options.values are the slowness F of each face: lengths are F ds. */
+#define HP_MESH_SLOWNESS 3
+
+/**
+ * hp_mesh_options.values are the metric G of each face, a symmetric positive definite matrix xx, xy,
+ * xz, yy, yz, zz: lengths are sqrt(dx' G dx).
+ */
+#define HP_MESH_METRIC 4
+
+/**
+ * hp_mesh_options.values are a texture or measurement f, from 0 to 1, at each vertex, and P = |1 -
+ * |reference - f||^power + floor: ways are short where f resembles the reference.
+ */
+#define HP_MESH_SCALARS 5
+
+/**
+ * P = floor + (1 - floor) min(kappa / kappa_q, 1)^power with the curvature kappa and its quantile
+ * kappa_q: ways are short where the surface bends, along ridges and valleys.
+ */
+#define HP_MESH_CURVATURE 6
+
+/** As HP_MESH_CURVATURE along the direction of the ridge or valley, and 1 / sqrt(floor) across it. */
+#define HP_MESH_CREASE 7
+
+/** HP_MESH_EXACT for up to 20,000 faces that are all equally slow; else HP_MESH_EIKONAL. The default. */
+#define HP_MESH_AUTO 0
+
+/**
+ * The heat method: heat flows for a short time, and distances are the function that rises along its
+ * direction. Prepared once, it is then faster than the others for many sources. Distances are
+ * smooth, and too short where the surface is coarse or narrow. Not for media whose slowness
+ * jumps.
+ */
+#define HP_MESH_HEAT 1
+
+/** Fast marching with round fronts: little to prepare, for any medium. */
+#define HP_MESH_EIKONAL 2
+
+/**
+ * The exact distance on the triangles, by straight lines unfolded over the faces. For media that are
+ * the same everywhere, and meshes of up to some 100,000 vertices.
+ */
+#define HP_MESH_EXACT 3
+
+/** Ridges and valleys count. The default. */
+#define HP_BEND_BOTH 0
+
+/** Ridges: where the surface is convex as seen from outside. */
+#define HP_BEND_CONVEX 1
+
+/** Valleys: where it is concave. */
+#define HP_BEND_CONCAVE 2
+
+/** Signed angles between faces, added up over a ball: for sharp edges and noisy meshes. The default. */
+#define HP_CURVATURE_NORMAL_CYCLES 0
+
+/** The changes of the normals, by least squares: the most accurate on smooth surfaces without noise. */
+#define HP_CURVATURE_LEAST_SQUARES 1
+
+/**
+ * A triangle mesh: a copy of the caller's points and faces, cleaned.
  *
- * Made by hp_paths_create() and freed by hp_paths_free(). It does not change, so any number of
+ * Made by hp_mesh_create() and freed by hp_mesh_free(), even while solvers that were made from it
+ * live on. It does not change, so any number of threads may use it at once, and any thread may free
+ * it once the others are done.
+ */
+typedef struct hp_mesh hp_mesh;
+
+/**
+ * A medium on a mesh, prepared for distances and paths from any sources.
+ *
+ * Made by hp_mesh_solver_create() and freed by hp_mesh_solver_free(). It does not change, so any
+ * number of threads may use it at once, and any thread may free it once the others are done.
+ */
+typedef struct hp_mesh_solver hp_mesh_solver;
+
+/**
+ * Paths, one for each end point, in the order of the end points; or isolines.
+ *
+ * Made by hp_paths_create(), hp_mesh_paths_create(), hp_mesh_paths_through() or
+ * hp_mesh_isolines_create(), and freed by hp_paths_free(). It does not change, so any number of
  * threads may use it at once, and any thread may free it once the others are done.
  */
 typedef struct hp_paths hp_paths;
@@ -378,17 +486,222 @@ typedef struct hp_path_info {
   uint32_t struct_size;
   /** One of HP_ENDED_... */
   uint32_t ending;
-  /** Which of the sources the path ends at, counted from 0; -1 if at none. */
+  /** Which of the sources the path ends at, counted from 0, or its label; -1 if at none. */
   int64_t source;
   /** The number of points, at least 1. */
   uint64_t point_count;
-  /** The length in pixels. */
+  /** The length in pixels; on a mesh, that in space. */
   double length;
-  /** The length in physical units. */
+  /** The length in physical units; on a mesh, that in space. */
   double physical_length;
   /** The distance of the end point from the sources, infinite if the path reaches none. */
   double distance;
 } hp_path_info;
+
+/**
+ * The caller's list of items, described but never owned or kept. An item is one number (the number
+ * of a vertex, a distance) or a few that follow each other (x, y, z; the three corners of a face).
+ *
+ * Fill it with hp_array_init(), then set type, data and count. Item i is found at data + i *
+ * byte_stride, so a list can be a part of larger structs: the positions of vertices that have
+ * colours too, say. Items need not be aligned; those that are written must not overlap.
+ *
+ * Any number of threads may read the same list at once. Functions that take an input only read it,
+ * although data is not const.
+ */
+typedef struct hp_array {
+  /** sizeof(hp_array). */
+  uint32_t struct_size;
+  /**
+   * HP_U8 to HP_F64, HP_I64 or HP_U64, in the byte order of the machine. Numbers of vertices and
+   * faces can have any type of integers, coordinates and values any type; results are HP_F32 or
+   * HP_F64. There is no default.
+   */
+  uint32_t type;
+  /** The first item. */
+  void *data;
+  /** The number of items. */
+  uint64_t count;
+  /**
+   * The bytes from an item to the next one; negative if that one lies before it in memory. 0, the
+   * default, means that items follow each other without gaps.
+   */
+  int64_t byte_stride;
+} hp_array;
+
+/**
+ * What to compute on a mesh and how. NULL in place of it means all defaults.
+ *
+ * Fill it with hp_mesh_options_init(), then change fields. It is only read, and not kept; several
+ * threads may use the same one if its callback allows that.
+ */
+typedef struct hp_mesh_options {
+  /** sizeof(hp_mesh_options). */
+  uint32_t struct_size;
+  /**
+   * The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
+   * thread alone. Results do not depend on it.
+   */
+  uint32_t threads;
+  /** Is told how far the computation is, and may cancel it. NULL by default. */
+  hp_progress progress;
+  /** What the progress callback gets as its second argument. */
+  void *user;
+  /**
+   * For hp_mesh_create(): vertices at most this far apart are joined; 0 joins those at equal
+   * positions only. Not a number (NAN), the default, joins none. Files of triangles without
+   * shared vertices, such as STL, need it.
+   */
+  double weld;
+  /** For hp_mesh_solver_create(): HP_MESH_UNIFORM, the default, or another one up to HP_MESH_CREASE. */
+  uint32_t medium;
+  /**
+   * For hp_mesh_solver_create(): HP_MESH_AUTO, the default, HP_MESH_HEAT, HP_MESH_EIKONAL or
+   * HP_MESH_EXACT.
+   */
+  uint32_t method;
+  /**
+   * For the media that are made of values: one for each vertex or face; see hp_mesh_faces() for
+   * faces. NULL by default. It is not needed any more once the solver is made.
+   */
+  const struct hp_array *values;
+  /**
+   * For HP_MESH_HEAT: how long heat flows, in multiples of the mean squared side of a face. 0, the
+   * default, stands for 4 on smooth meshes, down to 0.5 where faces meet at sharp angles.
+   */
+  double time;
+  /**
+   * For HP_MESH_HEAT: the most bytes that each of two or three factorisations may take. 0, the
+   * default, stands for 4 GiB.
+   */
+  uint64_t memory;
+  /**
+   * For hp_mesh_solver_create(): the distance beyond which nothing is reached. 0, the default,
+   * stands for no end. It saves time with all methods but HP_MESH_HEAT.
+   */
+  double farthest;
+  /**
+   * For hp_mesh_curvature() and media of curvature: the radius of the ball over which it is
+   * averaged. 0, the default, stands for 4 mean edges with HP_CURVATURE_NORMAL_CYCLES, and for
+   * the faces at the vertex alone with HP_CURVATURE_LEAST_SQUARES.
+   */
+  double radius;
+  /**
+   * For hp_mesh_curvature() and media of curvature: HP_CURVATURE_NORMAL_CYCLES, the default, or
+   * HP_CURVATURE_LEAST_SQUARES.
+   */
+  uint32_t curvature;
+  /**
+   * For paths: anything but 0 makes them locally shortest, straight across all edges. For
+   * HP_MESH_UNIFORM only. 0 by default.
+   */
+  uint32_t shorten;
+  /**
+   * For HP_MESH_CURVATURE and HP_MESH_CREASE: HP_BEND_BOTH, the default, HP_BEND_CONVEX or
+   * HP_BEND_CONCAVE.
+   */
+  uint32_t bend;
+  /** 0. */
+  uint32_t reserved;
+  /**
+   * For scalars, curvature and crease: what keeps P above zero. Not a number (NAN), the default,
+   * stands for 0.001 with scalars, and for 0.01 with the others, where it is at most 1.
+   */
+  double floor;
+  /**
+   * For scalars, curvature and crease: the power, positive. Not a number (NAN), the default,
+   * stands for 3 with scalars, and for 1 with the others.
+   */
+  double power;
+  /**
+   * For curvature and crease: the part of the vertices that bend less than what counts as fully
+   * bent; above 0, at most 1. 0.99 by default.
+   */
+  double quantile;
+  /** For scalars: the value f that the others are compared with. There is no default. */
+  double reference;
+} hp_mesh_options;
+
+/**
+ * Points on the surface of a mesh: vertices, or positions in space, or places on faces.
+ *
+ * Fill it with hp_surface_points_init(), then set one of vertices, positions, or faces with weights,
+ * and leave the others NULL. It is only read, and not kept.
+ */
+typedef struct hp_surface_points {
+  /** sizeof(hp_surface_points). */
+  uint32_t struct_size;
+  /**
+   * For sources at positions: anything but 0 makes them a curve, with straight lines between
+   * them that are laid onto the surface; all of it is one source, 0. offsets, labels and sets must
+   * be NULL then. 0 by default.
+   */
+  uint32_t curve;
+  /** The numbers of vertices; integers. */
+  const struct hp_array *vertices;
+  /** x, y, z of points in space: the nearest point of the surface is taken. */
+  const struct hp_array *positions;
+  /** The numbers of the faces that the points lie on; integers. */
+  const struct hp_array *faces;
+  /**
+   * The weights of the three corners of those faces (barycentric coordinates): not negative, adding
+   * up to 1.
+   */
+  const struct hp_array *weights;
+  /** For sources: the distance at each of them. NULL, the default, is 0 for all. */
+  const struct hp_array *offsets;
+  /**
+   * For sources: how they are called in results, integers from 0 to 2147483647. NULL, the default,
+   * are their numbers. The points of a curve should share a label: with HP_MESH_HEAT the
+   * time grows with the number of labels.
+   */
+  const struct hp_array *labels;
+  /**
+   * For sources of distances: where each set begins, and, last, where the last one ends: one
+   * more number than there are sets. The sources of a set count together, and each set has its
+   * own map. NULL, the default, makes all sources one set.
+   */
+  const struct hp_array *sets;
+} hp_surface_points;
+
+/** What hp_mesh_create() found. Set struct_size, then call hp_mesh_describe(). */
+typedef struct hp_mesh_report {
+  /** sizeof(hp_mesh_report). */
+  uint32_t struct_size;
+  /** 0. */
+  uint32_t reserved;
+  /** The vertices of the caller; results have one number for each of them. */
+  uint64_t vertices;
+  /** The faces of the mesh, all of them triangles, see hp_mesh_faces(). */
+  uint64_t faces;
+  /** Vertices that were joined with an earlier one. */
+  uint64_t welded;
+  /**
+   * Vertices at the position of an earlier one that were not joined: the mesh may be torn there,
+   * see hp_mesh_options.weld.
+   */
+  uint64_t shared_positions;
+  /** Polygons of more than three corners that were cut into triangles. */
+  uint64_t polygons;
+  /** Dropped faces with fewer than three different vertices. */
+  uint64_t repeated;
+  /** Dropped faces with the same three vertices as an earlier one. */
+  uint64_t duplicates;
+  /** Faces without area; they were kept. */
+  uint64_t flat;
+  /** Vertices that no face uses: they are at no distance from anywhere. */
+  uint64_t unreferenced;
+  /** Edges with more than two faces. */
+  uint64_t non_manifold_edges;
+  /** Edges with one face. */
+  uint64_t border_edges;
+  /** Edges whose faces do not agree about what is outside. */
+  uint64_t inconsistent_edges;
+  /** Components; between them there is no distance. */
+  uint64_t components;
+  /** Vertices that faces use - edges + faces: 2 for a closed surface without handles. */
+  int64_t euler_characteristic;
+} hp_mesh_report;
 
 #ifdef __cplusplus
 extern "C" {
@@ -494,7 +807,7 @@ hp_status hp_paths_create(const struct hp_buffer *image,
  * Frees paths; NULL is fine.
  *
  * The caller promises:
- * paths is NULL or comes from hp_paths_create() and was not freed yet.
+ * paths is NULL or comes from one of the functions that make paths, and was not freed yet.
  */
 void hp_paths_free(struct hp_paths *paths);
 
@@ -502,30 +815,34 @@ void hp_paths_free(struct hp_paths *paths);
  * Writes the number of paths to *count.
  *
  * The caller promises:
- * paths is NULL or comes from hp_paths_create(); count is NULL or points to a uint64_t.
+ * paths is NULL or comes from one of the functions that make paths; count is NULL or points to a uint64_t.
  */
-hp_status hp_paths_count(const struct hp_paths *paths, uint64_t *count);
+hp_status hp_paths_count(const struct hp_paths *paths,
+                         uint64_t *count);
 
 /**
  * Writes what is known about a path to *info, whose struct_size must be set.
  *
  * The caller promises:
- * paths is NULL or comes from hp_paths_create(); info is NULL or points to as many bytes as
+ * paths is NULL or comes from one of the functions that make paths; info is NULL or points to as many bytes as
  * its struct_size says.
  */
-hp_status hp_paths_info(const struct hp_paths *paths, uint64_t index, struct hp_path_info *info);
+hp_status hp_paths_info(const struct hp_paths *paths,
+                        uint64_t index,
+                        struct hp_path_info *info);
 
 /**
- * Copies the points of a path, in pixel coordinates, from the end point to the source.
+ * Copies the points of a path, in pixel coordinates or those of the mesh, from the end point
+ * to the source.
  *
- * coordinates: receives x, y of each point or, if the image was a volume, x, y, z: two or three
+ * coordinates: receives x, y of each point or, of a volume or mesh, x, y, z: two or three
  * times as many doubles as hp_path_info.point_count says.
  *
  * capacity: how many points there is room for. If it is too small nothing is written.
  *
  * The caller promises:
- * paths is NULL or comes from hp_paths_create(); coordinates is NULL or has room for
- * capacity points of two or, if the image was a volume, three doubles.
+ * paths is NULL or comes from one of the functions that make paths; coordinates is NULL or has room for
+ * capacity points of two or, of a volume or mesh, three doubles.
  */
 hp_status hp_paths_points(const struct hp_paths *paths,
                           uint64_t index,
@@ -593,6 +910,276 @@ hp_status hp_solver_distances(const struct hp_solver *solver,
  * solver is NULL or comes from hp_solver_create() and was not freed yet.
  */
 void hp_solver_free(struct hp_solver *solver);
+
+/**
+ * Fills *array with the defaults; struct_size is sizeof(hp_array).
+ *
+ * The caller promises:
+ * array is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_array_init(struct hp_array *array, uint32_t struct_size);
+
+/**
+ * Fills *options with the defaults; struct_size is sizeof(hp_mesh_options).
+ *
+ * The caller promises:
+ * options is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_mesh_options_init(struct hp_mesh_options *options, uint32_t struct_size);
+
+/**
+ * Fills *points with NULL pointers; struct_size is sizeof(hp_surface_points).
+ *
+ * The caller promises:
+ * points is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_surface_points_init(struct hp_surface_points *points, uint32_t struct_size);
+
+/**
+ * Makes a mesh from the caller's points and faces, which are not needed any more when this returns.
+ *
+ * Vertices are always those of the caller, counted from 0: all results have one number for each of
+ * them, also if some were joined. Borders, edges with more than two faces, several components,
+ * faces of any orientation and vertices without faces are all fine. Faces with the same vertex
+ * twice, and all but the first of faces with the same three vertices, are dropped. Faces are
+ * counted in the mesh: if some were dropped or cut, hp_mesh_faces() tells which there are.
+ *
+ * points: x, y, z of each vertex, finite, up to 1e100; any type.
+ *
+ * faces: three vertices each, counter-clockwise as seen from outside; any type of integers. With
+ * starts, one vertex each: the corners of all polygons, one polygon after the other.
+ *
+ * starts: NULL for triangles. For polygons, where the corners of each one begin in faces, and,
+ * last, where those of the last one end: one more number than there are polygons (the offsets of a
+ * vtkCellArray). Polygons are cut into triangles.
+ *
+ * options: weld counts. NULL for the defaults.
+ *
+ * mesh: receives the mesh, to be freed with hp_mesh_free(), or NULL if anything but HP_OK is
+ * returned.
+ *
+ * The caller promises:
+ * The structs are as large as their struct_size says, and lists are as large as their
+ * description.
+ */
+hp_status hp_mesh_create(const struct hp_array *points,
+                         const struct hp_array *faces,
+                         const struct hp_array *starts,
+                         const struct hp_mesh_options *options,
+                         struct hp_mesh **mesh);
+
+/**
+ * Frees a mesh; NULL is fine.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create() and was not freed yet.
+ */
+void hp_mesh_free(struct hp_mesh *mesh);
+
+/**
+ * Writes what a mesh is like to *report, whose struct_size must be set.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(); report is NULL or points to as many bytes as
+ * its struct_size says.
+ */
+hp_status hp_mesh_describe(const struct hp_mesh *mesh, struct hp_mesh_report *report);
+
+/**
+ * Copies the faces of a mesh.
+ *
+ * faces: receives the three vertices of each face; hp_mesh_report.faces items of HP_I32, HP_U32,
+ * HP_I64 or HP_U64. Of joined vertices it is the first one.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(); the list is as large as its description.
+ */
+hp_status hp_mesh_faces(const struct hp_mesh *mesh, const struct hp_array *faces);
+
+/**
+ * Prepares distances on a mesh from sources that are not known yet; with HP_MESH_HEAT, analyses and
+ * factors the systems.
+ *
+ * mesh: may be freed before the solver.
+ *
+ * options: all but weld and shorten count. NULL for the defaults.
+ *
+ * solver: receives the solver, to be freed with hp_mesh_solver_free(), or NULL if anything but
+ * HP_OK is returned. HP_OUT_OF_MEMORY means that the mesh is too large for HP_MESH_HEAT; the
+ * message names the memory that it needs.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(). The structs are as large as their struct_size
+ * says, and lists are as large as their description.
+ */
+hp_status hp_mesh_solver_create(const struct hp_mesh *mesh,
+                                const struct hp_mesh_options *options,
+                                struct hp_mesh_solver **solver);
+
+/**
+ * Frees a solver; NULL is fine.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_mesh_solver_create() and was not freed yet.
+ */
+void hp_mesh_solver_free(struct hp_mesh_solver *solver);
+
+/**
+ * Writes the method of a solver to *method: HP_MESH_HEAT, HP_MESH_EIKONAL or HP_MESH_EXACT.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_mesh_solver_create(); method is NULL or points to a uint32_t.
+ */
+hp_status hp_mesh_solver_method(const struct hp_mesh_solver *solver, uint32_t *method);
+
+/**
+ * Computes the distance of every vertex from the nearest source of a set, for one or more sets.
+ *
+ * sources: the sets of sources, see hp_surface_points.sets.
+ *
+ * options: threads and progress count; the results do not depend on the number of threads. NULL for the defaults.
+ *
+ * distances: receives the distances of the first set, one for each vertex; HP_F32 or HP_F64.
+ * Distances are in units of the points times slowness, and infinite where there is no way, beyond
+ * hp_mesh_options.farthest, and at vertices that no face uses.
+ *
+ * map_stride: the bytes from the distances of a set to those of the next one. 0 means that they
+ * follow each other without gaps.
+ *
+ * labels: receives the label of the nearest source for each vertex, -1 where there is none; HP_I32,
+ * HP_U32, HP_I64 or HP_U64, the bits of -1 set in all of them. NULL if they are not wanted.
+ *
+ * label_stride: as map_stride, for labels.
+ *
+ * If the call is cancelled some of the maps may have been written; after any other failure none
+ * was.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_mesh_solver_create(). The structs are as large as their
+ * struct_size says, and lists are as large as their description. The results are not used by
+ * another thread meanwhile.
+ */
+hp_status hp_mesh_solver_distances(const struct hp_mesh_solver *solver,
+                                   const struct hp_surface_points *sources,
+                                   const struct hp_mesh_options *options,
+                                   const struct hp_array *distances,
+                                   int64_t map_stride,
+                                   const struct hp_array *labels,
+                                   int64_t label_stride);
+
+/**
+ * Computes the distances between all vertices: row i of the matrix holds those from vertex i.
+ *
+ * They are those of hp_mesh_solver_distances() with every vertex as a set; they agree with their
+ * counterparts on the other side of the diagonal up to the error of the method.
+ *
+ * options: threads and progress count; the results do not depend on the number of threads. NULL for the defaults.
+ *
+ * distances: receives the first row, one number for each vertex; HP_F32 or HP_F64.
+ *
+ * row_stride: the bytes from a row to the next one. 0 means that rows follow each other without
+ * gaps.
+ *
+ * If the call is cancelled a part may have been written; after any other failure nothing was.
+ *
+ * The caller promises:
+ * As hp_mesh_solver_distances().
+ */
+hp_status hp_mesh_solver_matrix(const struct hp_mesh_solver *solver,
+                                const struct hp_mesh_options *options,
+                                const struct hp_array *distances,
+                                int64_t row_stride);
+
+/**
+ * Traces the shortest path from each end point to a source.
+ *
+ * sources: one set of them; see hp_surface_points.
+ *
+ * ends: the end points.
+ *
+ * options: shorten, threads and progress count. NULL for the defaults.
+ *
+ * paths: receives the paths, in the order of the ends, to be freed with hp_paths_free(), or NULL
+ * if anything but HP_OK is returned. Their points are x, y, z, from the end to the source; two
+ * neighbours share a face. hp_path_info.source is the label of the source, and both lengths are
+ * that in space; the distance is that of the solver, also if the path was shortened.
+ *
+ * An end point from which no source can be reached is not an error: hp_path_info tells.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_mesh_solver_create(). The structs are as large as their
+ * struct_size says, and lists are as large as their description.
+ */
+hp_status hp_mesh_paths_create(const struct hp_mesh_solver *solver,
+                               const struct hp_surface_points *sources,
+                               const struct hp_surface_points *ends,
+                               const struct hp_mesh_options *options,
+                               struct hp_paths **paths);
+
+/**
+ * Traces the path through some points in their order.
+ *
+ * points: two or more. The path goes from the first one to the last one and passes through the
+ * others; each piece is the shortest one, and hp_mesh_options.shorten straightens each by itself.
+ *
+ * paths: receives one path as hp_mesh_paths_create() makes them; its source is the number of the
+ * last point. Where a piece does not reach its point the path ends, and hp_path_info tells.
+ *
+ * options: as for hp_mesh_paths_create().
+ *
+ * The caller promises:
+ * As hp_mesh_paths_create().
+ */
+hp_status hp_mesh_paths_through(const struct hp_mesh_solver *solver,
+                                const struct hp_surface_points *points,
+                                const struct hp_mesh_options *options,
+                                struct hp_paths **paths);
+
+/**
+ * Finds the curves along which a function of the vertices has one of some values.
+ *
+ * values: the function, one value for each vertex, finite or infinite where it has none; linear on
+ * each face.
+ *
+ * levels: the values to look for; finite.
+ *
+ * isolines: receives the curves, those of the first level first, to be freed with hp_paths_free(),
+ * or NULL if anything but HP_OK is returned. There can be any number for a level. Of
+ * hp_path_info, ending is HP_ENDED_CLOSED, where the last point is joined to the first, or
+ * HP_ENDED_OPEN; source is the number of the level, and distance the level.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(). The lists are as large as their description.
+ */
+hp_status hp_mesh_isolines_create(const struct hp_mesh *mesh,
+                                  const struct hp_array *values,
+                                  const struct hp_array *levels,
+                                  struct hp_paths **isolines);
+
+/**
+ * Computes the principal curvatures at each vertex, in 1 / unit of the points: positive where the
+ * surface is convex as seen from outside, where faces are counter-clockwise.
+ *
+ * options: curvature, radius, threads and progress count. NULL for the defaults.
+ *
+ * smallest, largest: receive the smaller and the larger one, with their signs; one number for each
+ * vertex, HP_F32 or HP_F64. NULL for what is not wanted.
+ *
+ * smallest_directions, largest_directions: receive the unit tangents in which the surface bends so,
+ * x, y, z for each vertex; zero where there is no tangent plane. A crease runs along the direction
+ * of the curvature of smaller size. NULL for what is not wanted.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(). The structs are as large as their struct_size
+ * says, and lists are as large as their description. The results are not used by another thread
+ * meanwhile.
+ */
+hp_status hp_mesh_curvature(const struct hp_mesh *mesh,
+                            const struct hp_mesh_options *options,
+                            const struct hp_array *smallest,
+                            const struct hp_array *largest,
+                            const struct hp_array *smallest_directions,
+                            const struct hp_array *largest_directions);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -42,7 +42,7 @@ static inline double grey(int x, int y)
 }
 
 /* Describes pixels without gaps. */
-static hp_buffer buffer_of(void *data, uint32_t type)
+static inline hp_buffer buffer_of(void *data, uint32_t type)
 {
     hp_buffer buffer;
     EXPECT(HP_OK, "", hp_buffer_init(&buffer, sizeof buffer));

@@ -2,7 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
-use heatpath::{hp_buffer, hp_options, hp_path_info};
+use heatpath::{
+    hp_array, hp_buffer, hp_mesh_options, hp_mesh_report, hp_options, hp_path_info,
+    hp_surface_points,
+};
 use heatpath_ffi_tests::{Workshop, repository, run, shared_library, text};
 use std::collections::BTreeSet;
 use std::mem::offset_of;
@@ -36,6 +39,10 @@ fn c_and_rust_agree_on_structs() {
                 hp_buffer: data spacing;
                 hp_options: smoothing estimator user solver reference memory farthest tensor tensor_count;
                 hp_path_info: source distance;
+                hp_array: data count byte_stride;
+                hp_mesh_options: user weld medium values time farthest curvature bend floor reference;
+                hp_mesh_report: vertices welded euler_characteristic;
+                hp_surface_points: curve vertices weights labels sets;
             }
         };
     }

@@ -116,3 +116,28 @@ fn layouts_of_memory_change_no_bit() {
 fn threads_do_not_disturb_each_other() {
     checks_itself("threads.cpp");
 }
+
+#[test]
+fn meshes_against_closed_forms() {
+    checks_itself("mesh.c");
+}
+
+#[test]
+fn layouts_of_meshes_change_no_bit() {
+    checks_itself("mesh_layouts.c");
+}
+
+#[test]
+fn wrong_meshes_fail_in_words() {
+    checks_itself("mesh_misuse.c");
+}
+
+#[test]
+fn threads_share_meshes() {
+    checks_itself("mesh_threads.cpp");
+}
+
+#[test]
+fn random_meshes_give_numbers_or_words() {
+    checks_itself("mesh_any.c");
+}

@@ -1,4 +1,5 @@
-//! The C interface of heatpath: geodesic distances and paths on images by heat diffusion.
+//! The C interface of heatpath: geodesic distances and paths on images and meshes by heat
+//! diffusion.
 //!
 //! C and C++ programs include `include/heatpath.h`, which is generated from this crate, and link
 //! `libheatpath`. The names here are those of the header. Rust programs use `heatpath-core`.
@@ -10,7 +11,8 @@
 //! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
 //! | `options` | medium, heat, estimator, threads and progress; `settings` checks them |
 //! | `distance`, `paths`, `solver` | the computations; `problem`, `prepared` and `heat` are what they share |
-//! | `structs` | structs that begin with their size and grow at the end |
+//! | `mesh` | the same on triangle meshes |
+//! | `structs`, `handles` | structs that begin with their size and grow at the end, and opaque ones |
 //!
 //! Whatever a caller passes, a function answers with a status and never unwinds, prints, touches
 //! signal handlers, or leaves anything running.
@@ -22,7 +24,9 @@
 
 mod buffer;
 mod distance;
+mod handles;
 mod heat;
+mod mesh;
 mod options;
 mod paths;
 mod pixels;
@@ -38,6 +42,7 @@ mod view;
 
 pub use buffer::*;
 pub use distance::*;
+pub use mesh::*;
 pub use options::*;
 pub use paths::*;
 pub use solver::*;

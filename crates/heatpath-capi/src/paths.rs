@@ -1,6 +1,7 @@
 //! Minimal paths.
 
 use crate::buffer::hp_buffer;
+use crate::handles::{borrow, free, hand_out};
 use crate::options::hp_options;
 use crate::problem::{Arguments, Problem, read_points};
 use crate::status::{Failure, guard, hp_status};
@@ -16,25 +17,31 @@ pub const HP_ENDED_UNREACHABLE: u32 = 2;
 /// There is no path: no heat has arrived at the end point, and more iterations would bring it there;
 /// or it lies beyond hp_options.farthest.
 pub const HP_ENDED_NOT_REACHED: u32 = 3;
-/// The path was given up on the way, after more steps than the image should need.
+/// The path was given up on the way: after more steps than the image should need, or where nothing
+/// leads down the distances of a mesh.
 pub const HP_ENDED_STEP_LIMIT: u32 = 4;
+/// An isoline that ends at the border of a mesh, or where others meet it.
+pub const HP_ENDED_OPEN: u32 = 5;
+/// An isoline whose last point is joined to the first.
+pub const HP_ENDED_CLOSED: u32 = 6;
 
 /// The part of the distances in the progress of paths.
 const DISTANCE_SHARE: f64 = 0.9;
 
-/// Paths, one for each end point, in the order of the end points.
+/// Paths, one for each end point, in the order of the end points; or isolines.
 ///
-/// Made by hp_paths_create() and freed by hp_paths_free(). It does not change, so any number of
+/// Made by hp_paths_create(), hp_mesh_paths_create(), hp_mesh_paths_through() or
+/// hp_mesh_isolines_create(), and freed by hp_paths_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
 pub struct hp_paths {
-    paths: Vec<Traced>,
+    pub(crate) paths: Vec<Traced>,
 }
 
 /// A path in any dimension.
-struct Traced {
-    info: hp_path_info,
+pub(crate) struct Traced {
+    pub(crate) info: hp_path_info,
     /// Those of all points, one after the other.
-    coordinates: Vec<f64>,
+    pub(crate) coordinates: Vec<f64>,
 }
 
 /// What is known about a path besides its points. Set struct_size, then call hp_paths_info().
@@ -45,13 +52,13 @@ pub struct hp_path_info {
     pub struct_size: u32,
     /// One of HP_ENDED_...
     pub ending: u32,
-    /// Which of the sources the path ends at, counted from 0; -1 if at none.
+    /// Which of the sources the path ends at, counted from 0, or its label; -1 if at none.
     pub source: i64,
     /// The number of points, at least 1.
     pub point_count: u64,
-    /// The length in pixels.
+    /// The length in pixels; on a mesh, that in space.
     pub length: f64,
-    /// The length in physical units.
+    /// The length in physical units; on a mesh, that in space.
     pub physical_length: f64,
     /// The distance of the end point from the sources, infinite if the path reaches none.
     pub distance: f64,
@@ -101,21 +108,18 @@ pub unsafe extern "C" fn hp_paths_create(
     paths: *mut *mut hp_paths,
 ) -> hp_status {
     let arguments = Arguments { image, mask, sources, source_count, options };
-    guard(|| {
-        check_pointer(paths, "paths")?;
-        // SAFETY: the caller promises room for a pointer; it is aligned.
-        unsafe { paths.write(std::ptr::null_mut()) };
+    let make = || {
         // SAFETY: the caller's promise.
-        let traced = unsafe {
+        let paths = unsafe {
             match view::dimension(image)? {
                 2 => trace::<2>(&arguments, &read_points(ends, end_count, "ends")?)?,
                 _ => trace::<3>(&arguments, &read_points(ends, end_count, "ends")?)?,
             }
         };
-        // SAFETY: as above.
-        unsafe { paths.write(Box::into_raw(Box::new(hp_paths { paths: traced }))) };
-        Ok(())
-    })
+        Ok(hp_paths { paths })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(paths, "paths", make) })
 }
 
 /// # Safety
@@ -142,29 +146,23 @@ unsafe fn trace<const D: usize>(
 /// Frees paths; NULL is fine.
 ///
 /// # Safety
-/// `paths` is NULL or comes from hp_paths_create() and was not freed yet.
+/// `paths` is NULL or comes from one of the functions that make paths, and was not freed yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_paths_free(paths: *mut hp_paths) {
-    guard(|| {
-        if !paths.is_null() {
-            check_pointer(paths, "paths")?;
-            // SAFETY: made by `Box::into_raw`, and freed once, as the caller promises.
-            drop(unsafe { Box::from_raw(paths) });
-        }
-        Ok(())
-    });
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { free(paths, "paths") });
 }
 
 /// Writes the number of paths to *count.
 ///
 /// # Safety
-/// `paths` is NULL or comes from hp_paths_create(); `count` is NULL or points to a uint64_t.
+/// `paths` is NULL or comes from one of the functions that make paths; `count` is NULL or points to a uint64_t.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_paths_count(paths: *const hp_paths, count: *mut u64) -> hp_status {
     guard(|| {
         check_pointer(count, "count")?;
         // SAFETY: the caller's promise; the pointers were checked.
-        unsafe { count.write(borrow(paths)?.paths.len() as u64) };
+        unsafe { count.write(borrow(paths, "paths")?.paths.len() as u64) };
         Ok(())
     })
 }
@@ -172,7 +170,7 @@ pub unsafe extern "C" fn hp_paths_count(paths: *const hp_paths, count: *mut u64)
 /// Writes what is known about a path to *info, whose struct_size must be set.
 ///
 /// # Safety
-/// `paths` is NULL or comes from hp_paths_create(); `info` is NULL or points to as many bytes as
+/// `paths` is NULL or comes from one of the functions that make paths; `info` is NULL or points to as many bytes as
 /// its `struct_size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_paths_info(
@@ -209,16 +207,17 @@ impl Traced {
     }
 }
 
-/// Copies the points of a path, in pixel coordinates, from the end point to the source.
+/// Copies the points of a path, in pixel coordinates or those of the mesh, from the end point
+/// to the source.
 ///
-/// coordinates: receives x, y of each point or, if the image was a volume, x, y, z: two or three
+/// coordinates: receives x, y of each point or, of a volume or mesh, x, y, z: two or three
 /// times as many doubles as hp_path_info.point_count says.
 ///
 /// capacity: how many points there is room for. If it is too small nothing is written.
 ///
 /// # Safety
-/// `paths` is NULL or comes from hp_paths_create(); `coordinates` is NULL or has room for
-/// `capacity` points of two or, if the image was a volume, three doubles.
+/// `paths` is NULL or comes from one of the functions that make paths; `coordinates` is NULL or has room for
+/// `capacity` points of two or, of a volume or mesh, three doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_paths_points(
     paths: *const hp_paths,
@@ -249,17 +248,9 @@ pub unsafe extern "C" fn hp_paths_points(
 
 /// # Safety
 /// `paths` is NULL or points to paths that live as long as they are borrowed.
-unsafe fn borrow<'a>(paths: *const hp_paths) -> Result<&'a hp_paths, Failure> {
-    check_pointer(paths, "paths")?;
-    // SAFETY: not NULL, aligned, and the caller's promise.
-    Ok(unsafe { &*paths })
-}
-
-/// # Safety
-/// As [`borrow`].
 unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Traced, Failure> {
     // SAFETY: the caller's promise.
-    let paths = unsafe { &borrow(paths)?.paths };
+    let paths = unsafe { &borrow(paths, "paths")?.paths };
     let found = usize::try_from(index).ok().and_then(|index| paths.get(index));
     found.ok_or_else(|| {
         let count = paths.len();

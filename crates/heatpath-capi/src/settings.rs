@@ -64,19 +64,11 @@ impl Settings {
         &self,
         watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
     ) -> Result<Exec<'a>, Failure> {
-        let exec = match self.threads {
-            1 => Exec::single_threaded(),
-            threads => Exec::new(threads)?,
-        };
-        Ok(exec.with_watch(watch))
+        exec(self.threads, watch)
     }
 
     fn new(options: &hp_options) -> Result<Self, Failure> {
-        if options.threads as usize > Exec::MOST_THREADS {
-            let (threads, most) = (options.threads, Exec::MOST_THREADS);
-            let message = format!("threads is {threads}; it must be at most {most}");
-            return Err(Failure::argument(message));
-        }
+        let threads = check_threads(options.threads)?;
         if options.reserved != 0 {
             let message = format!("reserved is {}; it must be 0", options.reserved);
             return Err(Failure::argument(message));
@@ -92,7 +84,7 @@ impl Settings {
             reference: options.reference()?,
             method,
             readout,
-            threads: options.threads as usize,
+            threads,
             progress: Progress::new(options.progress, options.user),
         })
     }
@@ -220,7 +212,28 @@ impl hp_options {
     }
 }
 
-fn unknown(field: &str, number: u32, right: &str) -> Failure {
+/// The caller's number of threads, if it is possible.
+pub(crate) fn check_threads(threads: u32) -> Result<usize, Failure> {
+    let most = Exec::MOST_THREADS;
+    if threads as usize <= most {
+        return Ok(threads as usize);
+    }
+    Err(Failure::argument(format!("threads is {threads}; it must be at most {most}")))
+}
+
+/// So many threads, watched.
+pub(crate) fn exec<'a>(
+    threads: usize,
+    watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
+) -> Result<Exec<'a>, Failure> {
+    let exec = match threads {
+        1 => Exec::single_threaded(),
+        threads => Exec::new(threads)?,
+    };
+    Ok(exec.with_watch(watch))
+}
+
+pub(crate) fn unknown(field: &str, number: u32, right: &str) -> Failure {
     Failure::argument(format!("{field} is {number}; it must be {right}"))
 }
 

@@ -1,13 +1,13 @@
 //! Media prepared for many sources.
 
 use crate::buffer::hp_buffer;
+use crate::handles::{borrow, free, hand_out};
 use crate::options::hp_options;
 use crate::pixels;
 use crate::prepared::Prepared;
 use crate::problem::{read_medium, read_points};
 use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
-use crate::structs::check_pointer;
 use crate::view::{self, View};
 use heatpath_core::grid::Sources;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -48,10 +48,7 @@ pub unsafe extern "C" fn hp_solver_create(
     options: *const hp_options,
     solver: *mut *mut hp_solver,
 ) -> hp_status {
-    guard(|| {
-        check_pointer(solver, "solver")?;
-        // SAFETY: the caller promises room for a pointer; it is aligned.
-        unsafe { solver.write(std::ptr::null_mut()) };
+    let make = || {
         // SAFETY: the caller's promise.
         let medium = unsafe {
             match view::dimension(image)? {
@@ -59,10 +56,10 @@ pub unsafe extern "C" fn hp_solver_create(
                 _ => AnyDimension::Three(prepare(image, mask, options)?),
             }
         };
-        // SAFETY: as above.
-        unsafe { solver.write(Box::into_raw(Box::new(hp_solver { medium }))) };
-        Ok(())
-    })
+        Ok(hp_solver { medium })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(solver, "solver", make) })
 }
 
 /// # Safety
@@ -116,12 +113,12 @@ pub unsafe extern "C" fn hp_solver_distances(
     map_stride: i64,
 ) -> hp_status {
     guard(|| {
-        check_pointer(solver, "solver")?;
-        // SAFETY: not NULL, aligned, and the caller's promise.
+        // SAFETY: the caller's promise.
         unsafe {
+            let medium = &borrow(solver, "solver")?.medium;
             let settings = Settings::read(options)?;
             let maps = (distances, map_stride);
-            match &(*solver).medium {
+            match medium {
                 AnyDimension::Two(prepared) => {
                     let points = read_points(sources, source_count, "sources")?;
                     write_maps(prepared, &points, &settings, maps)
@@ -177,14 +174,8 @@ unsafe fn write_maps<const D: usize>(
 /// `solver` is NULL or comes from hp_solver_create() and was not freed yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn hp_solver_free(solver: *mut hp_solver) {
-    guard(|| {
-        if !solver.is_null() {
-            check_pointer(solver, "solver")?;
-            // SAFETY: made by `Box::into_raw`, and freed once, as the caller promises.
-            drop(unsafe { Box::from_raw(solver) });
-        }
-        Ok(())
-    });
+    // SAFETY: the caller's promise.
+    guard(|| unsafe { free(solver, "solver") });
 }
 
 #[cfg(test)]

@@ -18,11 +18,11 @@ pub type hp_status = i32;
 pub const HP_OK: i32 = 0;
 /// A pointer is NULL or misaligned, the size of a struct is wrong, or an option makes no sense.
 pub const HP_INVALID_ARGUMENT: i32 = 1;
-/// The description of a buffer is wrong: its type, sizes, strides or spacing.
+/// The description of a buffer or list is wrong: its type, sizes, strides or spacing.
 pub const HP_INVALID_BUFFER: i32 = 2;
-/// A pixel is infinite or not a number, or a given medium is not positive somewhere.
+/// A pixel or value is infinite or not a number, or a given medium is not positive somewhere.
 pub const HP_INVALID_IMAGE: i32 = 3;
-/// A source or an end is missing, outside the image, inside a wall, or not a number.
+/// A source or an end is missing, outside the image, inside a wall, not on the mesh, or not a number.
 pub const HP_INVALID_POINT: i32 = 4;
 /// The time step is larger than the medium allows; the message says how large it may be.
 pub const HP_UNSTABLE_STEP: i32 = 5;
@@ -39,6 +39,9 @@ pub const HP_UNSUPPORTED: i32 = 9;
 pub const HP_PANIC: i32 = 10;
 /// The medium is slower in places than the range of numbers allows.
 pub const HP_RANGE: i32 = 11;
+/// Points and faces are no mesh: there is no face, a face uses a vertex that does not exist, or a
+/// coordinate is infinite or not a number; or faces lie in each other, and HP_MESH_EXACT does not end.
+pub const HP_INVALID_MESH: i32 = 12;
 
 /// Why a call failed.
 #[derive(Debug)]
@@ -208,6 +211,7 @@ fn name_of(status: hp_status) -> &'static CStr {
         HP_UNSUPPORTED => c"HP_UNSUPPORTED",
         HP_PANIC => c"HP_PANIC",
         HP_RANGE => c"HP_RANGE",
+        HP_INVALID_MESH => c"HP_INVALID_MESH",
         _ => c"unknown status",
     }
 }
@@ -239,7 +243,7 @@ mod tests {
 
     #[test]
     fn numbers_are_for_ever() {
-        let names: Vec<_> = (0..13).map(|status| name_of(status).to_str().unwrap()).collect();
+        let names: Vec<_> = (0..14).map(|status| name_of(status).to_str().unwrap()).collect();
         assert_eq!(
             names,
             [
@@ -255,6 +259,7 @@ mod tests {
                 "HP_UNSUPPORTED",
                 "HP_PANIC",
                 "HP_RANGE",
+                "HP_INVALID_MESH",
                 "unknown status",
             ]
         );

@@ -6,17 +6,33 @@
 use cbindgen::{Builder, Config, DocumentationLength, DocumentationStyle, Language};
 use std::path::{Path, PathBuf};
 
-const MODULES: [&str; 7] =
-    ["version", "status", "buffer", "options", "distance", "paths", "solver"];
+const MODULES: [&str; 15] = [
+    "version",
+    "status",
+    "buffer",
+    "options",
+    "distance",
+    "paths",
+    "solver",
+    "mesh/array",
+    "mesh/options",
+    "mesh/report",
+    "mesh/points",
+    "mesh/handle",
+    "mesh/solver",
+    "mesh/paths",
+    "mesh/curvature",
+];
 
 const TITLE: &str = "\
-/* heatpath: geodesic distances and paths on images and volumes by letting heat flow through them.
+/* heatpath: geodesic distances and paths on images, volumes and triangle meshes by letting heat flow
+ * through them.
  *
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths and
- * hp_solver. Nothing is printed, and no state of
+ * wrong. All memory stays the caller's, except for hp_paths, hp_solver, hp_mesh and
+ * hp_mesh_solver. Nothing is printed, and no state of
  * the process is changed; threads are started anew for a call and end before it returns.
  * All functions may be called from any thread.
  *
@@ -48,8 +64,9 @@ fn config() -> Config {
         )),
         ..Config::default()
     };
-    // An opaque type: only pointers to it are used.
-    config.export.include.extend(["hp_paths", "hp_solver"].map(str::to_owned));
+    // Opaque types: only pointers to them are used.
+    let opaque = ["hp_paths", "hp_solver", "hp_mesh", "hp_mesh_solver"];
+    config.export.include.extend(opaque.map(str::to_owned));
     config
 }
 

@@ -1,0 +1,76 @@
+//! The curvature of meshes.
+
+use super::array::hp_array;
+use super::handle::{hp_mesh, surface_of};
+use super::items::Items;
+use super::options::hp_mesh_options;
+use super::settings::Settings;
+use crate::status::{Failure, guard, hp_status};
+use heatpath_core::mesh::Curvature;
+
+/// Computes the principal curvatures at each vertex, in 1 / unit of the points: positive where the
+/// surface is convex as seen from outside, where faces are counter-clockwise.
+///
+/// options: curvature, radius, threads and progress count. NULL for the defaults.
+///
+/// smallest, largest: receive the smaller and the larger one, with their signs; one number for each
+/// vertex, HP_F32 or HP_F64. NULL for what is not wanted.
+///
+/// smallest_directions, largest_directions: receive the unit tangents in which the surface bends so,
+/// x, y, z for each vertex; zero where there is no tangent plane. A crease runs along the direction
+/// of the curvature of smaller size. NULL for what is not wanted.
+///
+/// # Safety
+/// `mesh` is NULL or comes from hp_mesh_create(). The structs are as large as their `struct_size`
+/// says, and lists are as large as their description. The results are not used by another thread
+/// meanwhile.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_mesh_curvature(
+    mesh: *const hp_mesh,
+    options: *const hp_mesh_options,
+    smallest: *const hp_array,
+    largest: *const hp_array,
+    smallest_directions: *const hp_array,
+    largest_directions: *const hp_array,
+) -> hp_status {
+    // SAFETY: the caller's promise; types and counts of results are checked.
+    guard(|| unsafe {
+        let (surface, settings) = (surface_of(mesh)?, Settings::read(options)?);
+        let count = surface.vertex_count();
+        let values =
+            [target::<1>(smallest, "smallest", count)?, target::<1>(largest, "largest", count)?];
+        let directions = [
+            target::<3>(smallest_directions, "smallest_directions", count)?,
+            target::<3>(largest_directions, "largest_directions", count)?,
+        ];
+        let exec = settings.exec(|finished| settings.progress.report(finished))?;
+        let curvature = Curvature::new(surface.mesh(), settings.curvature, &exec)?;
+        settings.progress.check(1.0)?;
+        let vertices = curvature.vertices();
+        for (place, target) in values.iter().enumerate() {
+            if let Some(target) = target {
+                target.write(0, surface.in_order(|own| [vertices[own].values[place]]));
+            }
+        }
+        for (place, target) in directions.iter().enumerate() {
+            if let Some(target) = target {
+                target.write(0, surface.in_order(|own| vertices[own].directions[place]));
+            }
+        }
+        Ok(())
+    })
+}
+
+/// # Safety
+/// `array` is NULL, misaligned, or points to a description.
+unsafe fn target<const N: usize>(
+    array: *const hp_array,
+    name: &'static str,
+    count: usize,
+) -> Result<Option<Items<N>>, Failure> {
+    if array.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: the caller's promise.
+    Ok(Some(unsafe { Items::target(array, name, false, count, (1, 0))? }))
+}

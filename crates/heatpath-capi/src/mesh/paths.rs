@@ -1,0 +1,285 @@
+//! Curves on meshes: paths, paths through points, isolines.
+
+use super::array::hp_array;
+use super::handle::{hp_mesh, surface_of};
+use super::numbers::reals;
+use super::options::hp_mesh_options;
+use super::points::{hp_surface_points, read_points, read_sources};
+use super::prepared::Prepared;
+use super::settings::Settings;
+use super::solver::hp_mesh_solver;
+use crate::handles::{borrow, hand_out};
+use crate::paths::{
+    HP_ENDED_CLOSED, HP_ENDED_NOT_REACHED, HP_ENDED_OPEN, HP_ENDED_SOURCE, HP_ENDED_STEP_LIMIT,
+    HP_ENDED_UNREACHABLE, Traced, hp_path_info, hp_paths,
+};
+use crate::status::{Failure, guard, hp_status};
+use crate::structs::Versioned;
+use heatpath_core::mesh::path::{Ending, Path, isolines, shorten};
+use heatpath_core::mesh::{Sources, SurfacePoint, TriMesh};
+
+/// Traces the shortest path from each end point to a source.
+///
+/// sources: one set of them; see hp_surface_points.
+///
+/// ends: the end points.
+///
+/// options: shorten, threads and progress count. NULL for the defaults.
+///
+/// paths: receives the paths, in the order of the ends, to be freed with hp_paths_free(), or NULL
+/// if anything but HP_OK is returned. Their points are x, y, z, from the end to the source; two
+/// neighbours share a face. hp_path_info.source is the label of the source, and both lengths are
+/// that in space; the distance is that of the solver, also if the path was shortened.
+///
+/// An end point from which no source can be reached is not an error: hp_path_info tells.
+///
+/// # Safety
+/// `solver` is NULL or comes from hp_mesh_solver_create(). The structs are as large as their
+/// `struct_size` says, and lists are as large as their description.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_mesh_paths_create(
+    solver: *const hp_mesh_solver,
+    sources: *const hp_surface_points,
+    ends: *const hp_surface_points,
+    options: *const hp_mesh_options,
+    paths: *mut *mut hp_paths,
+) -> hp_status {
+    let make = || {
+        // SAFETY: the caller's promise.
+        let (tracer, sources, ends) = unsafe {
+            let tracer = Tracer::read(solver, options)?;
+            let sources = read_sources(&tracer.prepared.surface, sources)?;
+            let ends = read_points(&tracer.prepared.surface, ends, ["end", "ends"])?;
+            (tracer, sources, ends)
+        };
+        let legs = tracer.legs(&sources, &ends, (0.0, 1.0))?;
+        tracer.settings.progress.check(1.0)?;
+        Ok(hp_paths { paths: legs.iter().map(Leg::traced).collect() })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(paths, "paths", make) })
+}
+
+/// Traces the path through some points in their order.
+///
+/// points: two or more. The path goes from the first one to the last one and passes through the
+/// others; each piece is the shortest one, and hp_mesh_options.shorten straightens each by itself.
+///
+/// paths: receives one path as hp_mesh_paths_create() makes them; its source is the number of the
+/// last point. Where a piece does not reach its point the path ends, and hp_path_info tells.
+///
+/// options: as for hp_mesh_paths_create().
+///
+/// # Safety
+/// As hp_mesh_paths_create().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_mesh_paths_through(
+    solver: *const hp_mesh_solver,
+    points: *const hp_surface_points,
+    options: *const hp_mesh_options,
+    paths: *mut *mut hp_paths,
+) -> hp_status {
+    let make = || {
+        // SAFETY: the caller's promise.
+        let (tracer, points) = unsafe {
+            let tracer = Tracer::read(solver, options)?;
+            let points = read_points(&tracer.prepared.surface, points, ["point", "points"])?;
+            (tracer, points)
+        };
+        if points.len() < 2 {
+            return Err(Failure::argument("points: a path needs at least two"));
+        }
+        let path = tracer.through(&points)?;
+        tracer.settings.progress.check(1.0)?;
+        Ok(hp_paths { paths: vec![path.traced()] })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(paths, "paths", make) })
+}
+
+/// Finds the curves along which a function of the vertices has one of some values.
+///
+/// values: the function, one value for each vertex, finite or infinite where it has none; linear on
+/// each face.
+///
+/// levels: the values to look for; finite.
+///
+/// isolines: receives the curves, those of the first level first, to be freed with hp_paths_free(),
+/// or NULL if anything but HP_OK is returned. There can be any number for a level. Of
+/// hp_path_info, ending is HP_ENDED_CLOSED, where the last point is joined to the first, or
+/// HP_ENDED_OPEN; source is the number of the level, and distance the level.
+///
+/// # Safety
+/// `mesh` is NULL or comes from hp_mesh_create(). The lists are as large as their description.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_mesh_isolines_create(
+    mesh: *const hp_mesh,
+    values: *const hp_array,
+    levels: *const hp_array,
+    isolines: *mut *mut hp_paths,
+) -> hp_status {
+    let make = || {
+        // SAFETY: the caller's promise.
+        let (surface, values, levels) =
+            unsafe { (surface_of(mesh)?, reals(values, "values")?, reals(levels, "levels")?) };
+        let missing = |name: &str| Failure::argument(format!("{name} is NULL"));
+        let values = surface.own_values(&values.ok_or_else(|| missing("values"))?)?;
+        let levels = levels.ok_or_else(|| missing("levels"))?;
+        if let Some(number) = levels.iter().position(|level| !level.is_finite()) {
+            let level = levels[number];
+            let message = format!("levels: level {number} is {level}; it must be finite");
+            return Err(Failure::argument(message));
+        }
+        Ok(hp_paths { paths: curves(surface.mesh(), &values, &levels)? })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(isolines, "isolines", make) })
+}
+
+fn curves(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Vec<Traced>, Failure> {
+    let found =
+        isolines(mesh, values, levels).map_err(|error| Failure::from(error).of("values"))?;
+    let mut curves = Vec::new();
+    for (number, (lines, &level)) in found.iter().zip(levels).enumerate() {
+        curves.extend(lines.iter().map(|line| {
+            let positions: Vec<_> = line.points.iter().map(|point| mesh.position(point)).collect();
+            let around = positions.first().filter(|_| line.is_closed);
+            let length = length(positions.iter().chain(around));
+            let ending = if line.is_closed { HP_ENDED_CLOSED } else { HP_ENDED_OPEN };
+            traced(&positions, (ending, number as i64), length, level)
+        }));
+    }
+    Ok(curves)
+}
+
+fn length<'a>(positions: impl Iterator<Item = &'a [f64; 3]> + Clone) -> f64 {
+    let pairs = positions.clone().zip(positions.skip(1));
+    pairs.map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()).sum()
+}
+
+fn traced(
+    positions: &[[f64; 3]],
+    (ending, source): (u32, i64),
+    length: f64,
+    distance: f64,
+) -> Traced {
+    let point_count = positions.len() as u64;
+    let lengths = hp_path_info { length, physical_length: length, ..hp_path_info::defaults() };
+    let info = hp_path_info { ending, source, point_count, distance, ..lengths };
+    Traced { info, coordinates: positions.as_flattened().to_vec() }
+}
+
+/// A path, or a piece of one, as the caller sees it.
+struct Leg {
+    positions: Vec<[f64; 3]>,
+    ending: u32,
+    source: i64,
+    length: f64,
+    distance: f64,
+}
+
+impl Leg {
+    fn traced(&self) -> Traced {
+        traced(&self.positions, (self.ending, self.source), self.length, self.distance)
+    }
+}
+
+/// What traces paths.
+struct Tracer<'a> {
+    prepared: &'a Prepared,
+    settings: Settings,
+}
+
+impl Tracer<'_> {
+    /// # Safety
+    /// As [`hp_mesh_paths_create`].
+    unsafe fn read(
+        solver: *const hp_mesh_solver,
+        options: *const hp_mesh_options,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let (solver, settings) = unsafe { (borrow(solver, "solver")?, Settings::read(options)?) };
+        let prepared = &solver.prepared;
+        if settings.shortens && !prepared.is_uniform {
+            let message = "options: shorten is for HP_MESH_UNIFORM; in other media the shortest \
+                           path is not the nearest";
+            return Err(Failure::argument(message));
+        }
+        Ok(Self { prepared, settings })
+    }
+
+    /// Traces paths to `sources`; `begin` and `share` say which part of the progress this is.
+    fn legs(
+        &self,
+        sources: &Sources,
+        ends: &[SurfacePoint],
+        (begin, share): (f64, f64),
+    ) -> Result<Vec<Leg>, Failure> {
+        let progress = &self.settings.progress;
+        let exec = self.settings.exec(|finished| progress.report(begin + share * finished))?;
+        let (_, paths) = self.prepared.geodesics.paths(sources, ends, &exec)?;
+        paths.into_iter().map(|path| self.leg(sources, path)).collect()
+    }
+
+    fn leg(&self, sources: &Sources, path: Path) -> Result<Leg, Failure> {
+        if path.distance.is_finite() && path.distance > self.prepared.farthest {
+            // The source lies on the same face.
+            return Ok(Leg::none(path.positions[0], HP_ENDED_NOT_REACHED));
+        }
+        let (ending, source) = match path.ending {
+            Ending::Source(label) => (HP_ENDED_SOURCE, i64::from(label)),
+            Ending::Stuck => (HP_ENDED_STEP_LIMIT, -1),
+            Ending::Unreachable if self.is_far(sources, &path) => (HP_ENDED_NOT_REACHED, -1),
+            Ending::Unreachable => (HP_ENDED_UNREACHABLE, -1),
+        };
+        let mesh = self.prepared.surface.mesh();
+        let path = if self.settings.shortens { shorten(mesh, &path)? } else { path };
+        let Path { positions, length, distance, .. } = path;
+        Ok(Leg { positions, ending, source, length, distance })
+    }
+
+    /// Whether a source would be reached if distances did not end.
+    fn is_far(&self, sources: &Sources, path: &Path) -> bool {
+        if self.prepared.farthest == f64::INFINITY {
+            return false;
+        }
+        let mesh = self.prepared.surface.mesh();
+        let components = mesh.adjacency().components();
+        let of = |point: &SurfacePoint| components[mesh.faces()[point.face as usize][0] as usize];
+        sources.list().iter().any(|source| of(&source.point) == of(&path.points[0]))
+    }
+
+    fn through(&self, points: &[SurfacePoint]) -> Result<Leg, Failure> {
+        let mesh = self.prepared.surface.mesh();
+        let count = points.len() - 1;
+        let mut whole =
+            Leg { distance: 0.0, ..Leg::none(mesh.position(&points[0]), HP_ENDED_SOURCE) };
+        for (number, pair) in points.windows(2).enumerate() {
+            let part = (number as f64 / count as f64, 1.0 / count as f64);
+            let sources = Sources::new(mesh, &pair[1..])?;
+            for leg in self.legs(&sources, &pair[..1], part)? {
+                whole = whole.then(&leg);
+            }
+            if whole.ending != HP_ENDED_SOURCE {
+                return Ok(whole);
+            }
+        }
+        Ok(Leg { source: count as i64, ..whole })
+    }
+}
+
+impl Leg {
+    /// A path that leads nowhere.
+    fn none(position: [f64; 3], ending: u32) -> Self {
+        let positions = vec![position];
+        Self { positions, ending, source: -1, length: 0.0, distance: f64::INFINITY }
+    }
+
+    /// This one and the one that begins where it ends.
+    fn then(mut self, next: &Self) -> Self {
+        self.positions.extend(&next.positions[1..]);
+        let (ending, source) = (next.ending, next.source);
+        let (length, distance) = (self.length + next.length, self.distance + next.distance);
+        Self { positions: self.positions, ending, source, length, distance }
+    }
+}

@@ -1,0 +1,39 @@
+//! Media made ready for distances from any sources.
+
+use super::medium::read_medium;
+use super::settings::{Recipe, Settings};
+use super::surface::Surface;
+use crate::status::Failure;
+use heatpath_core::Exec;
+use heatpath_core::mesh::Geodesics;
+use std::sync::Arc;
+
+/// A medium in which distances can be found.
+pub(crate) struct Prepared {
+    pub(crate) surface: Arc<Surface>,
+    pub(crate) geodesics: Geodesics,
+    /// Whether distances are lengths.
+    pub(crate) is_uniform: bool,
+    /// Where they end.
+    pub(crate) farthest: f64,
+}
+
+impl Prepared {
+    /// Reads the medium and prepares a method.
+    ///
+    /// # Safety
+    /// The values of the settings are NULL, misaligned, or point to the description of readable
+    /// items.
+    pub(crate) unsafe fn new(
+        surface: &Arc<Surface>,
+        settings: &Settings,
+        exec: &Exec,
+    ) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let medium = unsafe { read_medium(surface, settings)? };
+        let geodesics = Geodesics::new(medium, settings.geodesics, exec)?;
+        let is_uniform = matches!(settings.recipe, Recipe::Uniform);
+        let farthest = settings.geodesics.farthest;
+        Ok(Self { surface: Arc::clone(surface), geodesics, is_uniform, farthest })
+    }
+}
