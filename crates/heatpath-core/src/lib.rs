@@ -1,4 +1,4 @@
-//! Geodesic distances and curves on images and volumes by letting heat flow through them.
+//! Geodesic distances and curves on images, volumes and triangle meshes by letting heat flow through them.
 #![doc = include_str!("tour.md")]
 
 mod error;
