@@ -1,8 +1,8 @@
 //! What makes ways short.
 
 use super::args::{BendArg, CurvatureArg, CurvatureArgs, MeshMediumArg, MeshMediumArgs};
+use super::idle::refuse_idle;
 use super::input::Input;
-use super::solve::value_at;
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use heatpath_core::mesh::{
@@ -16,24 +16,15 @@ pub(super) fn check(args: &MeshMediumArgs) -> Result<(), Failure> {
     use MeshMediumArg::{Crease, Curvature, Scalars, Speed};
     let (bends, values) = (&[Curvature, Crease][..], &[Scalars, Speed][..]);
     let shaped = &[Curvature, Crease, Scalars][..];
-    for (is_given, option, media) in [
+    let needs = [
         (args.bend.is_some(), "--bend", bends),
         (args.curvature.estimator.is_some(), "--estimator", bends),
         (args.curvature.radius.is_some(), "--radius", bends),
         (args.scalars.is_some(), "--scalars", values),
         (args.floor.is_some(), "--floor", shaped),
         (args.power.is_some(), "--power", shaped),
-    ] {
-        if is_given && !media.contains(&args.medium) {
-            let media: Vec<String> =
-                media.iter().map(|medium| format!("{medium:?}").to_lowercase()).collect();
-            return Err(Failure::usage(format!(
-                "{option} does nothing here: it needs `--medium {}`",
-                media.join("` or `--medium ")
-            )));
-        }
-    }
-    Ok(())
+    ];
+    refuse_idle("--medium", &args.medium, &needs)
 }
 
 /// The medium that the options ask for.
@@ -65,7 +56,7 @@ pub(super) fn medium(
             let references: Vec<f64> = sources
                 .list()
                 .iter()
-                .map(|source| value_at(&input.mesh, &values, &source.point))
+                .map(|source| input.mesh.value_at(&values, &source.point))
                 .collect();
             Medium::scalars(mesh(), &values, &references, options)?
         }

@@ -7,6 +7,7 @@ pub(crate) mod args;
 mod curvature;
 mod distance;
 mod failure;
+mod idle;
 mod input;
 mod medium;
 mod output;

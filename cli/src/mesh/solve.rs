@@ -1,6 +1,7 @@
 //! Distances and paths by any method.
 
 use super::args::{MeshMethodArg, MeshMethodArgs};
+use super::idle::refuse_idle;
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use heatpath_core::mesh::distance::{
@@ -38,22 +39,14 @@ impl Plan {
     /// Refuses options that would do nothing.
     pub(super) fn new(args: &MeshMethodArgs) -> Result<Self, Failure> {
         use MeshMethodArg::{Auto, Eikonal, Exact, Heat, Paper};
-        for (is_given, option, methods) in [
+        let needs = [
             (args.farthest.is_some(), "--farthest", &[Auto, Heat, Eikonal, Exact][..]),
             (args.time.is_some(), "--time", &[Heat][..]),
             (args.memory.is_some(), "--memory", &[Heat][..]),
             (args.iterations.is_some(), "--iterations", &[Paper][..]),
             (args.step.is_some(), "--step", &[Paper][..]),
-        ] {
-            if is_given && !methods.contains(&args.method) {
-                let methods: Vec<String> =
-                    methods.iter().map(|method| format!("{method:?}").to_lowercase()).collect();
-                return Err(Failure::usage(format!(
-                    "{option} does nothing here: it needs `--method {}`",
-                    methods.join("` or `--method ")
-                )));
-            }
-        }
+        ];
+        refuse_idle("--method", &args.method, &needs)?;
         let method = match args.method {
             Auto => Method::Auto,
             Heat => Method::Heat,
@@ -69,7 +62,6 @@ impl Plan {
         let heat = HeatMethodOptions {
             time: args.time,
             memory_limit: memory_limit(args.memory, usual.memory_limit)?,
-            ..usual
         };
         let farthest = args.farthest.unwrap_or(f64::INFINITY);
         Ok(Self::Geodesics(GeodesicsOptions { method, heat, farthest }))
@@ -157,7 +149,7 @@ impl Solver {
                 let slope = varadhan(&heat, exposure);
                 let descent = Descent::new(medium, slope.values(), sources)?;
                 let path = |&end: &SurfacePoint| {
-                    let distance = value_at(medium.mesh(), map.values(), &end);
+                    let distance = map.at(medium.mesh(), &end);
                     Ok::<_, Failure>(Path { distance, ..descent.path(end)? })
                 };
                 let paths = ends.iter().map(path).collect::<Result<_, _>>()?;
@@ -180,12 +172,6 @@ fn flow(explicit: &Explicit, sources: &Sources, exec: &Exec) -> Result<Heat, Fai
     } else {
         explicit.flow_balanced(sources, exec)?
     })
-}
-
-/// A value between the vertices.
-pub(super) fn value_at(mesh: &TriMesh, values: &[f64], point: &SurfacePoint) -> f64 {
-    let shares = mesh.shares(point);
-    shares.iter().map(|&(vertex, weight)| weight * values[vertex as usize]).sum()
 }
 
 fn shortened(mesh: &TriMesh, path: Path, is_asked: bool) -> Result<Path, Failure> {

@@ -6,6 +6,7 @@ pub mod evaluation;
 pub mod exec;
 pub mod grid;
 pub mod linear;
+mod lists;
 pub mod mesh;
 mod simd;
 

@@ -4,8 +4,11 @@
 
 use heatpath_core::Exec;
 use heatpath_core::mesh::distance::{DistanceMap, Eikonal, EikonalOptions, NO_LABEL};
-use heatpath_core::mesh::path::{Descent, Ending, through};
-use heatpath_core::mesh::{Locator, Medium, Source, Sources, SurfacePoint, TriMesh, shapes};
+use heatpath_core::mesh::path::{Descent, Ending};
+use heatpath_core::mesh::{
+    Geodesics, GeodesicsOptions, Locator, Medium, Method, Source, Sources, SurfacePoint, TriMesh,
+    shapes,
+};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -224,19 +227,19 @@ fn a_path_through_two_points() {
     let locator = Locator::new(medium.mesh());
     let places = [[0.1, 0.1, 0.0], [0.83, 0.2, 0.0], [0.7, 0.9, 0.0], [0.11, 0.56, 0.0]];
     let points = places.map(|place| locator.nearest(place).0);
-    let (eikonal, exec) = (Eikonal::new(medium.clone()), Exec::single_threaded());
-    let path = through::<Box<dyn std::error::Error>>(&medium, &points, |sources| {
-        Ok(eikonal.distance(sources, &EikonalOptions::default(), &exec)?)
-    });
-    let path = path.unwrap();
+    let (options, exec) = (GeodesicsOptions::default(), Exec::single_threaded());
+    let options = GeodesicsOptions { method: Method::Eikonal, ..options };
+    let geodesics = Geodesics::new(medium, options, &exec).unwrap();
+    let path = geodesics.through(&points, &exec).unwrap();
     let exact: f64 = places.windows(2).map(|pair| between(pair[0], pair[1])).sum();
     assert_eq!(path.ending, Ending::Source(0));
     assert!((path.length / exact - 1.0).abs() < 0.02 && (path.distance / exact - 1.0).abs() < 0.01);
     for point in points {
         assert!(path.points.contains(&point));
     }
-    let none = through::<Box<dyn std::error::Error>>(&medium, &points[..1], |_| unreachable!());
-    assert_eq!(none.unwrap_err().to_string(), "no way point was given; at least one is needed");
+    let text = |points| geodesics.through(points, &exec).unwrap_err().to_string();
+    assert_eq!(text(&points[..1]), "no way point was given; at least one is needed");
+    assert_eq!(text(&[]), "no end point was given; at least one is needed");
 }
 
 /// The distance along edges, by relaxing all of them until nothing changes.

@@ -106,7 +106,7 @@ impl From<EikonalError> for Failure {
 impl From<ExactError> for Failure {
     fn from(error: ExactError) -> Self {
         match error {
-            ExactError::Slowness { .. } | ExactError::Farthest(_) => {
+            ExactError::Slowness { .. } | ExactError::Parameter(_) => {
                 Self::argument(error.to_string())
             }
             ExactError::Windows { .. } => Self::new(HP_INVALID_MESH, error.to_string()),

@@ -146,7 +146,6 @@ impl hp_mesh_options {
                 0 => usual.memory_limit,
                 bytes => usize::try_from(bytes).unwrap_or(usize::MAX),
             },
-            ..usual
         }
     }
 

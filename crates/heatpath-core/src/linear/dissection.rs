@@ -1,5 +1,6 @@
 //! The order in which unknowns are eliminated, found from where they lie.
 
+use crate::lists::Lists;
 use std::collections::VecDeque;
 
 /// Parts of at most so many unknowns are not divided further.
@@ -18,7 +19,9 @@ const SMALLEST_PART: usize = 32;
 pub fn nested_dissection(points: &[[f64; 3]], couplings: &[[usize; 2]]) -> Vec<usize> {
     let mut dissection = Dissection {
         points,
-        neighbours: Neighbours::new(points.len(), couplings),
+        neighbours: Lists::new(points.len(), || {
+            couplings.iter().flat_map(|&[a, b]| [(a as u32, b as u32), (b as u32, a as u32)])
+        }),
         part: vec![ALL; points.len()],
         mark: vec![0; points.len()],
         parts: ALL,
@@ -37,34 +40,9 @@ const ALL: u32 = 1;
 /// The part of unknowns that are in order already.
 const PLACED: u32 = 0;
 
-struct Neighbours {
-    starts: Vec<usize>,
-    items: Vec<u32>,
-}
-
-impl Neighbours {
-    fn new(count: usize, couplings: &[[usize; 2]]) -> Self {
-        let mut starts = vec![0; count + 1];
-        couplings.iter().flatten().for_each(|&unknown| starts[unknown + 1] += 1);
-        (0..count).for_each(|unknown| starts[unknown + 1] += starts[unknown]);
-        let (mut next, mut items) = (starts.clone(), vec![0; starts[count]]);
-        for &[a, b] in couplings {
-            for (from, to) in [(a, b), (b, a)] {
-                items[next[from]] = to as u32;
-                next[from] += 1;
-            }
-        }
-        Self { starts, items }
-    }
-
-    fn of(&self, unknown: u32) -> &[u32] {
-        &self.items[self.starts[unknown as usize]..self.starts[unknown as usize + 1]]
-    }
-}
-
 struct Dissection<'a> {
     points: &'a [[f64; 3]],
-    neighbours: Neighbours,
+    neighbours: Lists,
     /// The part that each unknown belongs to.
     part: Vec<u32>,
     /// What was last found out about each unknown: see where it is used.
@@ -159,7 +137,7 @@ impl Dissection<'_> {
         self.mark[from as usize] = self.marks;
         let (mut reached, mut next) = (vec![from], 0);
         while next < reached.len() {
-            for &neighbour in self.neighbours.of(reached[next]) {
+            for &neighbour in self.neighbours.of(reached[next] as usize) {
                 let place = neighbour as usize;
                 if self.part[place] == name && self.mark[place] != self.marks {
                     self.mark[place] = self.marks;
@@ -176,7 +154,7 @@ impl Dissection<'_> {
         self.marks += 1;
         near.iter().for_each(|&unknown| self.mark[unknown as usize] = self.marks);
         let touches = |&&unknown: &&u32| {
-            let others = self.neighbours.of(unknown).iter();
+            let others = self.neighbours.of(unknown as usize).iter();
             let mut others = others.map(|&other| other as usize);
             others.any(|other| self.part[other] == name && self.mark[other] != self.marks)
         };
@@ -193,7 +171,7 @@ impl Dissection<'_> {
         };
         for &unknown in near {
             let others: Vec<u32> =
-                self.neighbours.of(unknown).iter().copied().filter(across).collect();
+                self.neighbours.of(unknown as usize).iter().copied().filter(across).collect();
             if !others.is_empty() {
                 pairs.near.push(unknown);
                 pairs.others.push(others);
@@ -263,17 +241,16 @@ impl Pairs {
 
     /// Finds a partner for `near`, exchanging those of others if need be.
     fn pair(&self, near: usize, partner: &mut [Option<usize>], seen: &mut [usize]) -> bool {
-        let round = near;
         // The way of exchanges: an unknown, and the next of its others to try.
         let mut way = vec![(near, 0)];
-        while let Some((near, next)) = way.last_mut() {
-            let Some(&other) = self.others[*near].get(*next) else {
+        while let Some((here, next)) = way.last_mut() {
+            let Some(&other) = self.others[*here].get(*next) else {
                 way.pop();
                 continue;
             };
             *next += 1;
             let other = other as usize;
-            if std::mem::replace(&mut seen[other], round) == round {
+            if std::mem::replace(&mut seen[other], near) == near {
                 continue;
             }
             match partner[other] {

@@ -38,6 +38,7 @@ pub use dissection::nested_dissection;
 pub(crate) use pins::{Pin, Pinned};
 pub use solve::Entries;
 pub use wide::Wide;
+pub(crate) use wide::power_of_two;
 
 use crate::exec::Cancelled;
 use thiserror::Error;

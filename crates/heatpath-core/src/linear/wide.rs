@@ -127,7 +127,7 @@ pub(super) fn exponent_of(value: f64) -> i32 {
 
 /// Two to the power `exponent`, from -1023 (which gives zero) to 1023.
 #[inline]
-pub(super) fn power_of_two(exponent: i32) -> f64 {
+pub(crate) fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 

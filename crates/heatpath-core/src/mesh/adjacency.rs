@@ -1,6 +1,6 @@
 //! Edges, and which faces meet where.
 
-use super::lists::Lists;
+use crate::lists::Lists;
 
 /// How the faces of a mesh hang together.
 ///

@@ -4,7 +4,7 @@ use super::distance::{
     DistanceMap, Eikonal, EikonalError, EikonalOptions, Exact, ExactError, ExactOptions,
     HeatMethod, HeatMethodError, HeatMethodOptions,
 };
-use super::path::{Descent, Path, ValuesError};
+use super::path::{Descent, Ending, Path, ValuesError};
 use super::{Medium, PointError, Sources, SurfacePoint};
 use crate::error::{ParameterError, check};
 use crate::exec::{Cancelled, Exec};
@@ -209,6 +209,29 @@ impl Geodesics {
         let descent = Descent::new(&self.medium, map.values(), sources)?;
         let paths = ends.iter().map(|&end| descent.path(end)).collect::<Result<_, _>>()?;
         Ok((map, paths))
+    }
+
+    /// The path from the first of `points` through all others, in their order, to the last, which has the
+    /// label 0: a path from each point to the next. It ends where one of these does.
+    ///
+    /// # Errors
+    /// There are less than two points, one is not on this mesh, or the caller cancelled.
+    pub fn through(&self, points: &[SurfacePoint], exec: &Exec) -> Result<Path, GeodesicsError> {
+        let mesh = self.medium.mesh();
+        mesh.check_points("end", points.first().copied())?;
+        mesh.check_points("way", points[1..].iter().copied())?;
+        let mut whole: Option<Path> = None;
+        for pair in points.windows(2) {
+            let sources = Sources::new(mesh, &pair[1..])?;
+            let (_, mut pieces) = self.paths(&sources, &pair[..1], exec)?;
+            let piece = pieces.remove(0);
+            let is_there = matches!(piece.ending, Ending::Source(_));
+            whole = Some(whole.map_or_else(|| piece.clone(), |path| path.then(mesh, &piece)));
+            if !is_there {
+                break;
+            }
+        }
+        whole.ok_or(GeodesicsError::Point(PointError::Missing { role: "way" }))
     }
 }
 

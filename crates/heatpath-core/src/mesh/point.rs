@@ -130,6 +130,14 @@ impl TriMesh {
         corners.filter(|&(_, weight)| weight > 0.0).collect()
     }
 
+    /// The value at a point of a function that is linear on each face, with these `values` at the
+    /// vertices: infinite if that of a vertex with a part in the point is.
+    #[must_use]
+    pub fn value_at(&self, values: &[f64], point: &SurfacePoint) -> f64 {
+        let shares = self.shares(point).into_iter();
+        shares.map(|(vertex, weight)| weight * values[vertex as usize]).sum()
+    }
+
     /// Checks that `points` exist and lie on this mesh.
     ///
     /// # Errors

@@ -48,8 +48,7 @@ fn is_sound(sides: [f64; 3]) -> bool {
 
 impl Triangulation {
     /// The triangles of the mesh as they are, all of a component turned alike as far as possible.
-    #[must_use]
-    pub fn new(medium: &Medium) -> Self {
+    fn new(medium: &Medium) -> Self {
         let adjacency = medium.mesh().adjacency();
         let mut triangulation = Self {
             points: medium.mesh().points().to_vec(),

@@ -73,8 +73,6 @@ impl DistanceMap {
     /// [`NOT_REACHED`] if one of them was not.
     #[must_use]
     pub fn at(&self, mesh: &TriMesh, point: &SurfacePoint) -> f64 {
-        let corners = mesh.faces()[point.face as usize].iter().zip(point.weights);
-        let parts = corners.filter(|&(_, weight)| weight > 0.0);
-        parts.map(|(&vertex, weight)| weight * self.values[vertex as usize]).sum()
+        mesh.value_at(&self.values, point)
     }
 }

@@ -1,10 +1,10 @@
 //! Explicit Euler of eq. (16), as the paper has it: `u' = u - step L~ (P u)` with `L~ = I - D^-1 W`.
 
+use super::Heat;
 use super::operator::{Operator, Weights};
-use super::{Heat, corners};
 use crate::error::{ParameterError, check};
 use crate::exec::{Cancelled, Exec};
-use crate::linear::Wide;
+use crate::linear::{Wide, power_of_two};
 use crate::mesh::{Medium, Sources, TriMesh};
 use std::sync::Arc;
 use thiserror::Error;
@@ -243,7 +243,8 @@ impl Explicit {
     fn start(&self, sources: &Sources, amounts: &[f64]) -> Vec<Wide> {
         let mut u = vec![Wide::ZERO; self.speed_sq.len()];
         for (source, &amount) in sources.list().iter().zip(amounts) {
-            for (vertex, weight) in corners(&self.mesh, &source.point) {
+            for (vertex, weight) in self.mesh.shares(&source.point) {
+                let vertex = vertex as usize;
                 u[vertex] = u[vertex].plus(Wide::from(weight * amount));
             }
         }
@@ -280,8 +281,8 @@ impl Explicit {
         let mut front: Vec<usize> = sources
             .list()
             .iter()
-            .flat_map(|source| corners(&self.mesh, &source.point))
-            .map(|(vertex, _)| vertex)
+            .flat_map(|source| self.mesh.shares(&source.point))
+            .map(|(vertex, _)| vertex as usize)
             .collect();
         front.iter().for_each(|&vertex| hops[vertex] = Some(0));
         for distance in 1.. {
@@ -322,17 +323,11 @@ impl Sum {
         if self.value == 0.0 {
             *self = Self { value: term, exponent };
         } else if above <= 0 {
-            self.value += term * power_of_two(above);
+            self.value += term * power_of_two(above.max(-1023));
         } else {
-            *self = Self { value: self.value * power_of_two(-above) + term, exponent };
+            *self = Self { value: self.value * power_of_two((-above).max(-1023)) + term, exponent };
         }
     }
-}
-
-/// Two to a power that is not positive; 0 below the range of f64.
-#[inline]
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((exponent.max(-1023) + 1023) as u64) << 52)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -82,11 +82,12 @@ impl Heat {
         let four_t = 4.0 * self.kappa * self.time();
         let at = |point: &SurfacePoint| {
             let position = self.mesh.position(point);
-            let corners = corners(&self.mesh, point).map(|(vertex, weight)| {
+            let shares = self.mesh.shares(point).into_iter().map(|(vertex, weight)| {
+                let vertex = vertex as usize;
                 let away = distance(self.mesh.points()[vertex], position);
                 weight * (ln[vertex] + away * away / (four_t * self.speed_sq[vertex]))
             });
-            corners.sum()
+            shares.sum()
         };
         self.sources.list().iter().map(|source| at(&source.point)).collect()
     }
@@ -94,7 +95,10 @@ impl Heat {
     /// The vertices with a part in a source, and its label.
     pub(crate) fn labelled_corners(&self) -> impl Iterator<Item = (usize, u32)> + '_ {
         let list = self.sources.list().iter();
-        list.flat_map(|s| corners(&self.mesh, &s.point).map(|(vertex, _)| (vertex, s.label)))
+        list.flat_map(|source| {
+            let shares = self.mesh.shares(&source.point).into_iter();
+            shares.map(|(vertex, _)| (vertex as usize, source.label))
+        })
     }
 
     /// The squared length, in units of the mesh, that stands for one unit of time: the median of
@@ -136,10 +140,4 @@ impl Heat {
     pub fn negative_weights(&self) -> usize {
         self.negative_weights
     }
-}
-
-/// The corners of the face with a part in a point.
-fn corners(mesh: &TriMesh, point: &SurfacePoint) -> impl Iterator<Item = (usize, f64)> {
-    let vertices = mesh.faces()[point.face as usize].map(|vertex| vertex as usize);
-    vertices.into_iter().zip(point.weights).filter(|&(_, weight)| weight > 0.0)
 }

@@ -1,10 +1,10 @@
 //! Down the distance, face by face.
 
-use super::plane::{self, corners, gradient, weight_rates, weighted};
-use super::spot::Spot;
 use super::{Ending, Path, ValuesError, check_values};
+use crate::lists::Lists;
 use crate::mesh::distance::NOT_REACHED;
-use crate::mesh::lists::Lists;
+use crate::mesh::plane::{self, corners, gradient, weight_rates};
+use crate::mesh::spot::{Spot, cost};
 use crate::mesh::{Medium, PointError, Source, Sources, SurfacePoint, TriMesh};
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
@@ -283,13 +283,6 @@ impl<'a> Descent<'a> {
         let slowness = faces.map(|&face| self.medium.slowness()[face as usize]);
         self.medium.lengths()[edge as usize] * slowness.fold(f64::INFINITY, f64::min)
     }
-}
-
-/// What it costs to go straight from one spot of a face to another.
-pub(crate) fn cost(medium: &Medium, face: u32, from: &Spot, to: &Spot) -> f64 {
-    let corners = corners(medium.sides(face as usize));
-    let [from, to] = [from, to].map(|spot| weighted(corners, spot.weights(medium.mesh(), face)));
-    medium.slowness()[face as usize] * plane::length(plane::minus(to, from))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Ways around a vertex.
 
-use super::spot::Spot;
+use crate::mesh::spot::Spot;
 use crate::mesh::{TriMesh, vector};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;

@@ -1,8 +1,8 @@
 //! Curves along which a function of the vertices has one value.
 
-use super::spot::Spot;
 use super::{ValuesError, check_values};
-use crate::mesh::lists::Lists;
+use crate::lists::Lists;
+use crate::mesh::spot::Spot;
 use crate::mesh::{SurfacePoint, TriMesh};
 
 /// A piece of an isoline.

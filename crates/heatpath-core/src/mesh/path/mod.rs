@@ -3,19 +3,12 @@
 mod descent;
 mod fan;
 mod isolines;
-mod plane;
 mod shorten;
-mod spot;
 mod strip;
-mod through;
 
 pub use descent::Descent;
 pub use isolines::{Isoline, isolines};
 pub use shorten::{ChainError, shorten, shorten_loop};
-pub use through::through;
-
-pub(crate) use descent::cost;
-pub(crate) use spot::Spot;
 
 use super::vector::distance;
 use super::{SurfacePoint, TriMesh};

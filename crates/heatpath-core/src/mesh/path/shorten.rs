@@ -1,9 +1,9 @@
 //! Paths made locally shortest.
 
 use super::fan::shorter_around;
-use super::spot::Spot;
 use super::strip::Strip;
 use super::{Path, length};
+use crate::mesh::spot::Spot;
 use crate::mesh::{PointError, SurfacePoint, TriMesh};
 use std::ops::Range;
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! The shortest way through a strip of faces.
 
-use super::plane::{Vector2, cross, length, minus, plus, times};
-use super::spot::Spot;
+use crate::mesh::plane::{Vector2, cross, length, minus, plus, times};
+use crate::mesh::spot::Spot;
 use crate::mesh::triangle::third_corner;
 use crate::mesh::{TriMesh, vector};
 
@@ -139,7 +139,7 @@ impl Portal {
             _ if corner == self.ends[0] => self.places[0],
             _ => self.places[1],
         });
-        (super::plane::weighted(places, spot.weights(mesh, face)), third, apex)
+        (crate::mesh::plane::weighted(places, spot.weights(mesh, face)), third, apex)
     }
 
     fn apex(&self, mesh: &TriMesh, third: u32, side: f64) -> Vector2 {

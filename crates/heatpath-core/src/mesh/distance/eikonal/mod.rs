@@ -11,7 +11,7 @@ use self::march::march;
 use super::{DistanceMap, NO_LABEL};
 use crate::error::{ParameterError, check};
 use crate::exec::{Cancelled, Exec};
-use crate::mesh::path::{Spot, cost};
+use crate::mesh::spot::{Spot, cost};
 use crate::mesh::{Medium, Sources, Triangulation};
 use std::sync::Arc;
 use thiserror::Error;

@@ -1,7 +1,7 @@
 //! What a front moves on.
 
 use super::front::{Arrival, Triangle};
-use crate::mesh::lists::Lists;
+use crate::lists::Lists;
 use crate::mesh::triangle;
 use std::f64::consts::{PI, TAU};
 

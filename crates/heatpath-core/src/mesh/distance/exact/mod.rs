@@ -16,6 +16,7 @@ use self::place::Place;
 use self::propagation::Propagation;
 use self::sides::Sides;
 use super::{DistanceMap, NO_LABEL, NOT_REACHED};
+use crate::error::{ParameterError, check};
 use crate::exec::{Cancelled, Exec};
 use crate::mesh::{Medium, Source, Sources, TriMesh};
 use std::sync::Arc;
@@ -46,9 +47,9 @@ pub enum ExactError {
         /// The largest.
         high: f64,
     },
-    /// The propagation cannot end at this distance.
-    #[error("farthest is {0}; it must be a positive distance")]
-    Farthest(f64),
+    /// A parameter is outside its range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The faces lie in each other in so many ways that windows do not end.
     #[error(
         "{windows} windows were not enough: the faces of this mesh lie in each other; weld it, or use \
@@ -177,9 +178,7 @@ impl Exact {
         keeps: bool,
         exec: &Exec<'_>,
     ) -> Result<Propagation<'_>, ExactError> {
-        if options.farthest.is_nan() || options.farthest <= 0.0 {
-            return Err(ExactError::Farthest(options.farthest));
-        }
+        check("farthest", options.farthest, options.farthest > 0.0, "a positive distance")?;
         let inside = |distance: f64| (distance - base(sources.list())) / self.unit;
         let farthest = inside(options.farthest);
         let mut propagation = Propagation::new(&self.sides, &self.can_bend, farthest, keeps);

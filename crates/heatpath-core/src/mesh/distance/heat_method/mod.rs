@@ -27,9 +27,6 @@ pub struct HeatMethodOptions {
     /// How long heat flows, in multiples of the mean squared side of a face, by its slowness. Above 0;
     /// default [`usual_time`].
     pub time: Option<f64>,
-    /// Whether to cut the surface along better triangles first (the intrinsic Delaunay
-    /// triangulation). Default true; without it distances on obtuse triangles are wrong.
-    pub delaunay: bool,
     /// The most memory that each of the factorisations may take, in bytes; default 4 GiB. There are
     /// two, on surfaces with a border three.
     pub memory_limit: usize,
@@ -37,7 +34,7 @@ pub struct HeatMethodOptions {
 
 impl Default for HeatMethodOptions {
     fn default() -> Self {
-        Self { time: None, delaunay: true, memory_limit: 4 << 30 }
+        Self { time: None, memory_limit: 4 << 30 }
     }
 }
 
@@ -90,11 +87,7 @@ impl HeatMethod {
         let medium = medium.into();
         let time = options.time.unwrap_or_else(|| usual_time(medium.mesh()));
         check_positive("time", time)?;
-        let triangulation = if options.delaunay {
-            Triangulation::delaunay(&medium, true)
-        } else {
-            Triangulation::new(&medium)
-        };
+        let triangulation = Triangulation::delaunay(&medium, true);
         exec.report(0.1)?;
         let laplacian = Laplacian::new(&triangulation, options.memory_limit)?;
         exec.report(0.3)?;

@@ -1,14 +1,12 @@
 //! Straight lines from a source, by unfolding the faces around it into the plane.
 
+use crate::mesh::plane::{Vector2, corners, cross, length, minus, weighted};
 use crate::mesh::triangle::third_corner;
 use crate::mesh::{Medium, Source};
 use std::collections::BTreeMap;
 
 /// Lines are followed through so many faces.
 const DEPTH: usize = 10;
-
-/// A place in the plane; the source is its origin.
-type Place = [f64; 2];
 
 /// The distances of the vertices that straight lines from `source` reach within a few faces, the
 /// source's offset included, but for those that ways along edges reach sooner. Exact where the slowness
@@ -77,9 +75,9 @@ struct Window {
     face: u32,
     edge: u32,
     /// The ends of the edge with their vertices.
-    ends: [(u32, Place); 2],
+    ends: [(u32, Vector2); 2],
     /// The outermost lines, through the first and the second end or nearer.
-    lines: [Place; 2],
+    lines: [Vector2; 2],
 }
 
 impl Unfolding<'_> {
@@ -89,10 +87,9 @@ impl Unfolding<'_> {
         let share = |vertex| shares.iter().find(|&&(v, _)| v == vertex).map_or(0.0, |&(_, w)| w);
         let weights = vertices.map(share);
         let sides = self.medium.sides(face as usize);
-        let corners = [[0.0; 2], [sides[2], 0.0], third_corner(sides)];
-        let origin: Place =
-            [0, 1].map(|axis| corners.iter().zip(weights).map(|(c, w)| w * c[axis]).sum());
-        let places = corners.map(|[x, y]| [x - origin[0], y - origin[1]]);
+        let corners = corners(sides);
+        let origin = weighted(corners, weights);
+        let places = corners.map(|corner| minus(corner, origin));
         for i in 0..3 {
             self.see(vertices[i], places[i], face);
         }
@@ -101,12 +98,12 @@ impl Unfolding<'_> {
             let [a, b] = [(i + 1) % 3, (i + 2) % 3];
             let edge = self.medium.mesh().adjacency().face_edges()[face as usize][i];
             let ends = [(vertices[a], places[a]), (vertices[b], places[b])];
-            self.cross(&Window { face, edge, ends, lines: [places[a], places[b]] }, DEPTH);
+            self.go_on(&Window { face, edge, ends, lines: [places[a], places[b]] }, DEPTH);
         }
     }
 
     /// Goes on behind an edge.
-    fn cross(&mut self, window: &Window, depth: usize) {
+    fn go_on(&mut self, window: &Window, depth: usize) {
         if depth == 0 {
             return;
         }
@@ -121,8 +118,8 @@ impl Unfolding<'_> {
             let vertices = self.medium.mesh().faces()[face as usize];
             let apex = (vertices[i], self.apex(face, i, a, b));
             // Counter-clockwise, the first line comes before the second.
-            let is_right = turn(window.lines[0], apex.1) <= 0.0;
-            let is_left = turn(apex.1, window.lines[1]) <= 0.0;
+            let is_right = cross(window.lines[0], apex.1) <= 0.0;
+            let is_left = cross(apex.1, window.lines[1]) <= 0.0;
             if !is_right && !is_left {
                 self.see(apex.0, apex.1, face);
             }
@@ -133,18 +130,18 @@ impl Unfolding<'_> {
             if !is_right {
                 let line = if is_left { window.lines[1] } else { apex.1 };
                 let (edge, ends) = (edge_at(b.0), [a, apex]);
-                self.cross(&Window { face, edge, ends, lines: [window.lines[0], line] }, depth - 1);
+                self.go_on(&Window { face, edge, ends, lines: [window.lines[0], line] }, depth - 1);
             }
             if !is_left {
                 let line = if is_right { window.lines[0] } else { apex.1 };
                 let (edge, ends) = (edge_at(a.0), [apex, b]);
-                self.cross(&Window { face, edge, ends, lines: [line, window.lines[1]] }, depth - 1);
+                self.go_on(&Window { face, edge, ends, lines: [line, window.lines[1]] }, depth - 1);
             }
         }
     }
 
     /// Where the corner i of a face lies, beyond its side from `a` to `b`.
-    fn apex(&self, face: u32, i: usize, a: (u32, Place), b: (u32, Place)) -> Place {
+    fn apex(&self, face: u32, i: usize, a: (u32, Vector2), b: (u32, Vector2)) -> Vector2 {
         let vertices = self.medium.mesh().faces()[face as usize];
         let sides = self.medium.sides(face as usize);
         let side_at = |vertex: u32| sides[vertices.iter().position(|&v| v == vertex).unwrap_or(i)];
@@ -154,17 +151,12 @@ impl Unfolding<'_> {
         [a.1[0] + x * along[0] + y * along[1], a.1[1] + x * along[1] - y * along[0]]
     }
 
-    fn see(&mut self, vertex: u32, place: Place, face: u32) {
+    fn see(&mut self, vertex: u32, place: Vector2, face: u32) {
         let slowness = 0.5 * (self.slowness + self.medium.slowness()[face as usize]);
-        let distance = self.source.offset + slowness * place[0].hypot(place[1]);
+        let distance = self.source.offset + slowness * length(place);
         let known = self.found.entry(vertex).or_insert(f64::INFINITY);
         *known = known.min(distance);
     }
-}
-
-/// Positive if `b` lies counter-clockwise from `a`, seen from the origin.
-fn turn(a: Place, b: Place) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]

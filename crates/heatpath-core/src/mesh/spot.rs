@@ -1,6 +1,7 @@
 //! Points of the surface by the part of it that they lie in.
 
-use crate::mesh::{SurfacePoint, TriMesh};
+use super::plane::{self, corners, weighted};
+use super::{Medium, SurfacePoint, TriMesh};
 
 /// A vertex, a point inside an edge, or a point inside a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,4 +99,11 @@ impl Spot {
             }
         }
     }
+}
+
+/// What it costs to go straight from one spot of a face to another.
+pub(crate) fn cost(medium: &Medium, face: u32, from: &Spot, to: &Spot) -> f64 {
+    let corners = corners(medium.sides(face as usize));
+    let [from, to] = [from, to].map(|spot| weighted(corners, spot.weights(medium.mesh(), face)));
+    medium.slowness()[face as usize] * plane::length(plane::minus(to, from))
 }
