@@ -80,6 +80,18 @@ fn without_end_of_windows() -> TriMesh {
     TriMesh::new(points, faces).unwrap()
 }
 
+/// Faces of which some lie in each other, at most two at each edge: windows do not end.
+fn without_end_of_automatic_windows() -> TriMesh {
+    let mut points = vec![[0.0; 3]; 14];
+    points[0] = [0.0, 1.0 + 1e-9, 2e-9];
+    points[2] = [0.0, 1.0, 1.0];
+    points[5] = [1.0; 3];
+    points[8] = [0.0, 1.0, 2e-9];
+    points[11] = [1e-9, 1.0, 0.0];
+    let faces = vec![[5, 11, 12], [0, 1, 2], [8, 11, 2], [2, 8, 11], [3, 4, 5], [1, 5, 8]];
+    TriMesh::new(points, faces).unwrap()
+}
+
 /// Distances from the first corner, by all methods.
 fn check(mesh: TriMesh) {
     let exec = Exec::single_threaded();
@@ -109,6 +121,7 @@ fn check(mesh: TriMesh) {
 fn known_cases() {
     check(without_end_of_flips());
     check(without_end_of_windows());
+    check(without_end_of_automatic_windows());
 }
 
 proptest! {

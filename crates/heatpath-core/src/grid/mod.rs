@@ -8,6 +8,7 @@
 pub mod bridge;
 pub mod distance;
 mod eigen;
+mod extraction;
 mod field;
 pub mod filter;
 pub mod heat;
@@ -28,6 +29,7 @@ mod tensor;
 pub mod voting;
 
 pub use eigen::eigen;
+pub use extraction::{Structure, StructureError};
 pub use field::{Grid, LengthError, NotFinite, fraction};
 pub use mask::Mask;
 pub use seeds::seeds;

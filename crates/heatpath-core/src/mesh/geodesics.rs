@@ -16,7 +16,8 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Method {
     /// [`Exact`](Self::Exact) for up to 20,000 faces if all are equally slow and at most two meet in
-    /// each edge, else [`Eikonal`](Self::Eikonal).
+    /// each edge, else [`Eikonal`](Self::Eikonal); also where windows do not end, because faces lie in
+    /// each other.
     #[default]
     Auto,
     /// The heat method: prepared once, then faster than all others, for many sources. Smooth, and so
@@ -104,7 +105,8 @@ pub struct Geodesics {
 enum Solver {
     Heat(Box<HeatMethod>),
     Eikonal(Eikonal),
-    Exact(Exact),
+    /// With what takes over where windows do not end, if nobody asked for them.
+    Exact(Box<Exact>, Option<Eikonal>),
 }
 
 /// Windows are for meshes of so many faces at most: they take 0.1 to 0.3 s.
@@ -124,7 +126,11 @@ impl Geodesics {
         let (medium, farthest) = (medium.into(), options.farthest);
         check("farthest", farthest, farthest > 0.0, "a positive distance")?;
         let solver = match chosen(options.method, &medium) {
-            Method::Exact => Solver::Exact(Exact::new(&medium)?),
+            Method::Exact => {
+                let is_auto = options.method == Method::Auto;
+                let instead = is_auto.then(|| Eikonal::new(Arc::clone(&medium)));
+                Solver::Exact(Box::new(Exact::new(&medium)?), instead)
+            }
             Method::Eikonal => Solver::Eikonal(Eikonal::new(Arc::clone(&medium))),
             _ => Solver::Heat(Box::new(HeatMethod::new(Arc::clone(&medium), options.heat, exec)?)),
         };
@@ -143,7 +149,7 @@ impl Geodesics {
         match self.solver {
             Solver::Heat(_) => Method::Heat,
             Solver::Eikonal(_) => Method::Eikonal,
-            Solver::Exact(_) => Method::Exact,
+            Solver::Exact(..) => Method::Exact,
         }
     }
 
@@ -179,9 +185,17 @@ impl Geodesics {
                 let options = EikonalOptions { farthest: self.farthest };
                 each(sets, exec, |sources, exec| Ok(eikonal.distance(sources, &options, exec)?))
             }
-            Solver::Exact(exact) => {
+            Solver::Exact(exact, instead) => {
                 let options = ExactOptions { farthest: self.farthest };
-                each(sets, exec, |sources, exec| Ok(exact.distance(sources, &options, exec)?))
+                each(sets, exec, |sources, exec| {
+                    match (exact.distance(sources, &options, exec), instead) {
+                        (Err(ExactError::Windows { .. }), Some(eikonal)) => {
+                            let options = EikonalOptions { farthest: self.farthest };
+                            Ok(eikonal.distance(sources, &options, exec)?)
+                        }
+                        (result, _) => Ok(result?),
+                    }
+                })
             }
         }
     }
@@ -200,10 +214,15 @@ impl Geodesics {
         exec: &Exec,
     ) -> Result<(DistanceMap, Vec<Path>), GeodesicsError> {
         self.medium.mesh().check_points("end", ends.iter().copied())?;
-        if let Solver::Exact(exact) = &self.solver {
-            let found = exact.paths(sources, &ExactOptions { farthest: self.farthest }, exec)?;
-            let paths = ends.iter().map(|end| found.path(end)).collect::<Result<_, _>>()?;
-            return Ok((found.map().clone(), paths));
+        if let Solver::Exact(exact, instead) = &self.solver {
+            match exact.paths(sources, &ExactOptions { farthest: self.farthest }, exec) {
+                Err(ExactError::Windows { .. }) if instead.is_some() => {}
+                found => {
+                    let found = found?;
+                    let paths = ends.iter().map(|end| found.path(end)).collect::<Result<_, _>>()?;
+                    return Ok((found.map().clone(), paths));
+                }
+            }
         }
         let map = self.distance(sources, exec)?;
         let descent = Descent::new(&self.medium, map.values(), sources)?;

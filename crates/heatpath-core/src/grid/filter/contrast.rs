@@ -55,6 +55,24 @@ pub fn normalize_contrast<const D: usize>(
     Ok(values)
 }
 
+/// The grey value that [`even_grey`] gives to a local deviation; the contrast of a strong tube in it.
+pub const DEVIATION: f64 = 0.125;
+
+/// The image with even light, in grey values from 0 to 1: the [local contrast](normalize_contrast)
+/// times [`DEVIATION`] above 0.5.
+///
+/// # Errors
+/// As [`normalize_contrast`].
+pub fn even_grey<const D: usize>(
+    image: &Grid<f64, D>,
+    sigma: f64,
+    mask: &Mask<D>,
+    exec: &Exec,
+) -> Result<Grid<f64, D>, FilterError> {
+    let contrast = normalize_contrast(image, sigma, mask, exec)?;
+    Ok(contrast.map(|&deviations| (0.5 + DEVIATION * deviations).clamp(0.0, 1.0)))
+}
+
 /// The image less its mean over its deviation, 0 in walls; none without contrast.
 fn standardized<const D: usize>(image: &Grid<f64, D>, mask: &Mask<D>) -> Option<Grid<f64, D>> {
     let open = || image.values().iter().enumerate().filter(|&(cell, _)| mask.is_open(cell));

@@ -14,7 +14,7 @@ mod separable;
 mod structure;
 mod vesselness;
 
-pub use contrast::normalize_contrast;
+pub use contrast::{DEVIATION, even_grey, normalize_contrast};
 pub use hessian::hessian;
 pub use measure::{Measure, Polarity};
 pub use structure::{gaussian_gradient, structure_tensor};

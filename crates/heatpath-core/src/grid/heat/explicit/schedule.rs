@@ -69,6 +69,12 @@ impl<const D: usize> Tiling<D> {
         })
     }
 
+    /// The same tiles, no larger than a grid needs: small pictures take little memory.
+    fn within(self, shape: &Shape<D>) -> Self {
+        let needed = shape.size().map(|side| side.next_multiple_of(SHORTEST_EDGE));
+        Self { edge: std::array::from_fn(|axis| self.edge[axis].min(needed[axis])), ..self }
+    }
+
     /// The most steps that heat takes from any cell of a window to any other, if there are no walls.
     ///
     /// At every step it comes at least to all neighbours across faces.
@@ -144,6 +150,7 @@ struct Range<const D: usize> {
 
 impl<const D: usize> Tiles<D> {
     pub(super) fn new(shape: &Shape<D>, tiling: Tiling<D>) -> Self {
+        let tiling = tiling.within(shape);
         let size = std::array::from_fn(|axis| shape.size()[axis].div_ceil(tiling.edge[axis]));
         let tiles = shape.with_size(size);
         let visited = |number| Visited { number, ..Visited::default() };
