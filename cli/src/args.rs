@@ -1,5 +1,6 @@
 //! The command line, described.
 
+use crate::batch::args::BatchArgs;
 use crate::mesh::args::MeshCommand;
 use clap::{ArgGroup, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -7,8 +8,8 @@ use std::path::PathBuf;
 /// Geodesic distances and minimal paths on images and triangle meshes, by letting heat flow through
 /// them.
 ///
-/// Images are pictures (PNG, JPEG, TIFF, PNM, NPY) or volumes: TIFF with several grey pages of one
-/// size, or NPY with three axes (slices, rows, columns).
+/// Images are pictures (PNG, JPEG, TIFF, PNM, NPY) or volumes: NIfTI, NRRD, MetaImage, DICOM, TIFF with
+/// several grey pages of one size, or NPY with three axes (slices, rows, columns).
 ///
 /// Points are pixel coordinates `x,y` or, in volumes, `x,y,z`: x to the right, y down, z from slice
 /// to slice, the centre of the first pixel at 0,0; fractions are allowed.
@@ -22,6 +23,10 @@ pub(crate) struct Args {
 const EXIT_CODES: &str = "\
 Exit codes: 0 done, 2 wrong usage, 3 bad input, 4 a file cannot be read or written, 5 no answer \
 (a path did not reach a source), 130 interrupted.";
+
+const BATCH_CODES: &str = "\
+Exit codes: 0 all rows are done, 10 + N: N rows failed (110: 100 or more); 2, 3 and 4 as in all \
+commands, before any row ran; 130 interrupted.";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -40,6 +45,9 @@ pub(crate) enum Command {
     Mesh(MeshCommand),
     /// Say how well extracted curves agree with a truth: recall and precision by length.
     Evaluate(EvaluateArgs),
+    /// Run other commands on many inputs: resumable, with a log, a summary and a report.
+    #[command(after_help = BATCH_CODES)]
+    Batch(BatchArgs),
     /// Say what is in a file: size, type, range.
     Info(InfoArgs),
     /// Print a completion script for a shell.
@@ -57,8 +65,9 @@ pub(crate) struct DistanceArgs {
     pub(crate) medium: MediumArgs,
     #[command(flatten)]
     pub(crate) method: MethodArgs,
-    /// Where the distances go: .npy (64-bit floats), .tif (32-bit floats, a page a slice), or, not
-    /// for volumes, .png (a colour-mapped picture). Not reached is infinite.
+    /// Where the distances go: .npy, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd (64-bit floats; all but
+    /// .npy with the input's place in the world), .tif (32-bit floats, a page a slice), or, not for
+    /// volumes, .png (a colour-mapped picture). Not reached is infinite.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -148,11 +157,12 @@ pub(crate) struct VoteArgs {
     )]
     pub(crate) prune: f64,
     /// Where the curves go: a graph of branches with radii (.json, .csv, .swc, .vtp), the curves alone
-    /// (.svg), or the pixels that were kept, 255 and 0 (.png, .npy, .tif). PNG and SVG are not for volumes.
+    /// (.svg), or the pixels that were kept, 255 and 0 (.png, .npy, .tif, .nii, .nii.gz, .nrrd, .nhdr,
+    /// .mha, .mhd). PNG and SVG are not for volumes.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
-    /// Where the geodesic density goes, the number of votes (eq. 23): .npy, .tif or, not for volumes,
-    /// .png.
+    /// Where the geodesic density goes, the number of votes (eq. 23): .npy, .tif, a medical format or,
+    /// not for volumes, .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) density: Option<PathBuf>,
     #[command(flatten)]
@@ -184,8 +194,8 @@ pub(crate) struct KeyPointsArgs {
     /// Where the curves and key points go: .json, .csv, .swc, .vtp or, not for volumes, .svg.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
-    /// Where the travelling map goes, the distances from the key points: .npy, .tif or, not for volumes,
-    /// .png.
+    /// Where the travelling map goes, the distances from the key points: .npy, .tif, a medical format
+    /// or, not for volumes, .png.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) travelling: Option<PathBuf>,
     #[command(flatten)]
@@ -222,7 +232,8 @@ pub(crate) struct MediumCommandArgs {
     pub(crate) sources: OptionalSourceArgs,
     #[command(flatten)]
     pub(crate) medium: MediumArgs,
-    /// Where the medium goes: .npy, .tif or, not for volumes, .png.
+    /// Where the medium goes: .npy, .tif, .nii, .nii.gz, .nrrd, .nhdr, .mha, .mhd or, not for volumes,
+    /// .png.
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -246,7 +257,7 @@ pub(crate) struct EvaluateArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) mask: Option<PathBuf>,
     /// The physical size of a pixel: width, height and, in volumes, the distance of slices
-    /// [default: 1 each].
+    /// [default: as the file says, else 1 each].
     #[arg(long, value_name = "SX,SY[,SZ]", value_parser = point, allow_hyphen_values = true)]
     pub(crate) spacing: Option<Numbers>,
     /// Write the scores: .json or .csv.
@@ -268,8 +279,11 @@ pub(crate) struct EvaluateArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
-    /// The file: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes. Or a mesh.
+    /// The file: PNG, JPEG, TIFF, PNM, NPY, NIfTI, NRRD, MetaImage, DICOM or a folder of it. Or a mesh.
     pub(crate) input: PathBuf,
+    /// Of a file with several values a voxel, or with several volumes, the one to look at, from 0.
+    #[arg(long, value_name = "N")]
+    pub(crate) component: Option<usize>,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
@@ -293,8 +307,12 @@ fn extraction_group(file: &'static str) -> ArgGroup {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PictureArgs {
-    /// The picture or volume: PNG, JPEG, TIFF, PNM or NPY; TIFF and NPY can be volumes.
+    /// The picture or volume: PNG, JPEG, TIFF, PNM, NPY, NIfTI, NRRD, MetaImage, DICOM, or a folder
+    /// with a series of DICOM.
     pub(crate) input: PathBuf,
+    /// Of a file with several values a voxel, or with several volumes, the one that counts, from 0.
+    #[arg(long, value_name = "N", help_heading = "Picture")]
+    pub(crate) component: Option<usize>,
     /// Which channel of a colour picture counts.
     #[arg(long, default_value = "luma", help_heading = "Picture")]
     pub(crate) channel: ChannelArg,
@@ -303,7 +321,7 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "LO,HI", value_parser = pair, allow_hyphen_values = true, help_heading = "Picture")]
     pub(crate) range: Option<[f64; 2]>,
     /// The physical size of a pixel: width, height and, in volumes, the distance of slices
-    /// [default: 1 each].
+    /// [default: as the file says, else 1 each].
     #[arg(
         long,
         value_name = "SX,SY[,SZ]",
@@ -312,7 +330,9 @@ pub(crate) struct PictureArgs {
         help_heading = "Picture"
     )]
     pub(crate) spacing: Option<Numbers>,
-    /// Read points, --smooth, --scale, --normalize and --margin in physical units (--spacing) instead of pixels.
+    /// Read points in world coordinates, and --smooth, --scale, --normalize and --margin in physical
+    /// units, instead of pixels. The world is LPS, as in DICOM and ITK: x to the patient's left, y to
+    /// the back, z to the head. Of files that name no place it begins at the first pixel.
     #[arg(long, help_heading = "Picture")]
     pub(crate) physical: bool,
     /// A picture or volume of the same size whose zeros are walls.
@@ -476,7 +496,7 @@ pub(crate) struct HeatArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct OutputArgs {
-    /// A picture of the result on the input (.png); not for volumes.
+    /// A picture of the result on the input (.png); of volumes three slices and three projections.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub(crate) overlay: Option<PathBuf>,
     /// The format of --output [default: as the file's ending].

@@ -69,7 +69,7 @@ fn distance_in<const D: usize>(
     // === Write
     let field = outcome.distances.field();
     if let Some(output) = &args.output {
-        let style = FieldStyle { title: Some("distance".to_owned()) };
+        let style = FieldStyle { title: Some("distance".to_owned()), placement: picture.placement };
         write_field(output, args.out.format.as_deref(), args.out.force, field, &style)?;
     }
     if let Some(overlay) = &args.out.overlay {

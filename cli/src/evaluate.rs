@@ -8,7 +8,7 @@ use heatpath_core::evaluation::{self, CurveSet, Evaluation, Score, Separation};
 use heatpath_core::grid::{Mask, Shape};
 use heatpath_io::scores::SCORE_ENDINGS;
 use heatpath_io::{
-    CurveFile, ImageFile, ReadError, check_output, read_mask, scores_json, write_scores,
+    CurveFile, ImageFile, Placement, ReadError, check_output, scores_json, write_scores,
 };
 use std::path::Path;
 
@@ -43,14 +43,18 @@ fn evaluate_in<const D: usize>(
     extracted: Given,
     truth: Given,
 ) -> Result<(), Failure> {
+    let view = args.mask.as_ref().map(ImageFile::read).transpose()?;
+    let files = [truth.file(), extracted.file(), view.as_ref()];
+    let placed = files.into_iter().flatten().find(|file| file.placement().is_some());
     let spacing = match &args.spacing {
         Some(spacing) => coordinates("spacing", spacing)?,
-        None => [1.0; D],
+        None => placed.and_then(ImageFile::spacing).unwrap_or([1.0; D]),
     };
     Shape::with_spacing([1; D], spacing)?;
-    let extracted = extracted.curves(&args.extracted, spacing)?;
-    let truth = truth.curves(&args.truth, spacing)?;
-    let view = args.mask.as_ref().map(|file| read_mask(file, spacing)).transpose()?;
+    let place = (spacing, placed.and_then(ImageFile::placement));
+    let extracted = extracted.curves(&args.extracted, place)?;
+    let truth = truth.curves(&args.truth, place)?;
+    let view = view.map(|file| file.into_mask(spacing)).transpose()?;
     check_sizes(args, &extracted, &truth, view.as_ref())?;
     let evaluation = evaluation::evaluate(&extracted, &truth, &args.tolerance, view.as_ref())?;
     if let Some(output) = &args.output {
@@ -81,15 +85,22 @@ impl Given {
         }
     }
 
+    fn file(&self) -> Option<&ImageFile> {
+        match self {
+            Self::Curves(_) => None,
+            Self::Mask(file) => Some(file),
+        }
+    }
+
     fn curves<const D: usize>(
         self,
         path: &Path,
-        spacing: [f64; D],
+        (spacing, placement): ([f64; D], Option<Placement>),
     ) -> Result<CurveSet<D>, Failure> {
         match self {
             Self::Mask(file) => Ok(CurveSet::of_mask(file.into_mask(spacing)?.open())),
             Self::Curves(file) => {
-                let polylines = file.into_polylines(spacing)?;
+                let polylines = file.into_polylines(spacing, placement)?;
                 CurveSet::of_polylines(&polylines, spacing)
                     .map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
             }

@@ -6,7 +6,8 @@ use heatpath_core::grid::Grid;
 use heatpath_core::grid::distance::NOT_REACHED;
 use heatpath_core::grid::path::{Ending, Path as Curve};
 use heatpath_core::grid::skeleton::{Branch, Graph};
-use heatpath_io::{Curves, write_curves, write_graph, write_mask};
+use heatpath_io::output::ending;
+use heatpath_io::{Curves, FieldFormat, Placement, write_curves, write_graph, write_mask};
 use std::path::Path;
 
 /// A structure that was found, as a graph and as cells.
@@ -14,28 +15,36 @@ pub(crate) struct Extraction<'a, const D: usize> {
     pub(crate) graph: &'a Graph<D>,
     pub(crate) kept: &'a Grid<bool, D>,
     pub(crate) seeds: &'a [[f64; D]],
+    pub(crate) placement: Option<Placement>,
 }
 
 impl<const D: usize> Extraction<'_, D> {
     /// The graph, a drawing, or the cells.
-    pub(crate) const ENDINGS: [&'static str; 9] =
-        ["json", "csv", "swc", "vtp", "svg", "png", "npy", "tif", "tiff"];
+    pub(crate) const ENDINGS: [&'static str; 15] = [
+        "json", "csv", "swc", "vtp", "svg", "png", "npy", "tif", "tiff", "nrrd", "nhdr", "mha",
+        "mhd", "nii", "nii.gz",
+    ];
 
     pub(crate) fn write(&self, path: &Path, out: &OutputArgs) -> Result<(), Failure> {
         let format = out.format.as_deref();
-        let ending = format.or_else(|| path.extension()?.to_str()).unwrap_or_default();
+        let ending = format.unwrap_or_else(|| ending(path));
         match ending.to_ascii_lowercase().as_str() {
             "svg" => {
                 let shape = self.graph.shape;
                 let curves = Curves {
                     spacing: shape.spacing(),
+                    placement: self.placement,
                     paths: self.paths(),
                     key_points: Vec::new(),
                 };
                 write_curves(path, format, out.force, &curves, &shape)?;
             }
-            "png" | "npy" | "tif" | "tiff" => write_mask(path, format, out.force, self.kept)?,
-            _ => write_graph(path, format, out.force, self.graph, self.seeds)?,
+            name if FieldFormat::ENDINGS.contains(&name) => {
+                write_mask(path, format, out.force, self.kept, self.placement)?;
+            }
+            _ => {
+                write_graph(path, format, out.force, self.graph, self.seeds, self.placement)?;
+            }
         }
         Ok(())
     }

@@ -7,15 +7,15 @@ use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
 use heatpath_core::grid::keypoints::KeyPointError;
 use heatpath_core::grid::medium::MediumError;
 use heatpath_core::grid::voting::VotingError;
-use heatpath_core::grid::{PointError, ShapeError};
+use heatpath_core::grid::{PointError, ShapeError, StructureError};
 use heatpath_io::{ReadError, WriteError};
 use std::fmt;
 use std::process::ExitCode;
 
 /// A reason to stop, told in one line.
 #[derive(Debug)]
-pub(crate) struct Failure {
-    kind: Kind,
+pub struct Failure {
+    code: u8,
     message: String,
 }
 
@@ -54,12 +54,19 @@ impl Failure {
         Self::new(Kind::Interrupted, &"interrupted")
     }
 
-    fn new(kind: Kind, message: &dyn fmt::Display) -> Self {
-        Self { kind, message: message.to_string() }
+    /// Rows of a batch have failed: 10 more than how many, 110 for a hundred and more.
+    pub(crate) fn rows(failed: usize, message: impl fmt::Display) -> Self {
+        Self { code: 10 + failed.min(100) as u8, message: message.to_string() }
     }
 
-    pub(crate) fn code(&self) -> ExitCode {
-        ExitCode::from(self.kind as u8)
+    fn new(kind: Kind, message: &dyn fmt::Display) -> Self {
+        Self { code: kind as u8, message: message.to_string() }
+    }
+
+    /// The exit code for it.
+    #[must_use]
+    pub fn code(&self) -> ExitCode {
+        ExitCode::from(self.code)
     }
 }
 
@@ -169,6 +176,18 @@ impl From<EvaluationError> for Failure {
         match error {
             EvaluationError::Tolerance { .. } | EvaluationError::Shape(_) => Self::usage(error),
             _ => Self::bad_input(error),
+        }
+    }
+}
+
+impl From<StructureError> for Failure {
+    fn from(error: StructureError) -> Self {
+        match error {
+            StructureError::Point(error) => error.into(),
+            StructureError::None => Self::no_answer(format!("{error} (--medium)")),
+            StructureError::Short { .. } => {
+                Self::no_answer(format!("{error} (--source, --extent, --structure)"))
+            }
         }
     }
 }

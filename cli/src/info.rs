@@ -5,12 +5,13 @@ use crate::failure::Failure;
 use crate::input::size_text;
 use crate::mesh::MeshFacts;
 use crate::output;
-use heatpath_io::ReadError;
 use heatpath_io::mesh::read_mesh;
+use heatpath_io::{ImageFile, Info, ReadError};
 use serde::Serialize;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
-    let info = match heatpath_io::info(&args.input) {
+    let info = match ImageFile::read_component(&args.input, args.component).map(|file| file.info())
+    {
         Err(ReadError::Unrecognised { .. }) => return mesh_info(args),
         info => info?,
     };
@@ -29,6 +30,21 @@ pub(crate) fn info(args: &InfoArgs) -> Result<(), Failure> {
         if info.size.len() == 2 { "pixels" } else { "voxels" },
         info.channels,
         info.sample,
+    ))?;
+    place(&info).iter().try_for_each(|line| output::print(line))
+}
+
+/// Where the file says that it lies in the world.
+fn place(info: &Info) -> Option<String> {
+    let list = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let (spacing, place) = (info.spacing.as_ref()?, info.placement?);
+    let axes = place.direction.iter().take(info.size.len()).map(|axis| format!("({})", list(axis)));
+    let axes: Vec<String> = axes.collect();
+    Some(format!(
+        "spacing {}, origin {} (LPS), axes along {}",
+        list(spacing),
+        list(&place.origin),
+        axes.join(" ")
     ))
 }
 

@@ -6,20 +6,17 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use heatpath_core::Exec;
-use heatpath_core::grid::filter::{Polarity, Tubes, normalize_contrast};
+use heatpath_core::grid::filter::{DEVIATION, Polarity, Tubes, even_grey};
 use heatpath_core::grid::medium::{
     self, ConductivityOptions, Directions, EdgeStop, EdgesOptions, Form, Medium, MediumError,
     PeronaMalikOptions, TensorOptions, VesselnessOptions,
 };
 use heatpath_core::grid::{Grid, Mask, Shape, check_points};
-use heatpath_io::{Channel, ImageFile, PictureOptions, read_mask, read_points};
+use heatpath_io::{Channel, ImageFile, PictureOptions, Placement, read_points};
 use std::path::Path;
 
 /// The names of the coordinates.
 const AXES: [&str; 3] = ["x", "y", "z"];
-
-/// The grey value that --normalize gives to a local deviation.
-const DEVIATION: f64 = 0.125;
 
 /// The input, which is a picture or a volume: here ways part, and each command calls a function
 /// that is generic over the dimension.
@@ -31,7 +28,7 @@ pub(crate) enum Input {
 impl Input {
     /// Reads the file. Where it can be both, the numbers of `points` and of the spacing decide.
     pub(crate) fn read(args: &PictureArgs, points: &[&[Numbers]]) -> Result<Self, Failure> {
-        let file = ImageFile::read(&args.input)?;
+        let file = ImageFile::read_component(&args.input, args.component)?;
         let given = points.iter().copied().flatten().chain(&args.spacing).next();
         let dimensions = file.dimensions();
         let wanted = given.map(|numbers| numbers.0.len()).filter(|n| dimensions.contains(n));
@@ -42,20 +39,22 @@ impl Input {
     }
 }
 
-/// The picture or volume and its walls.
+/// The picture or volume, its walls, and its place in the world, if its file names one.
 pub(crate) struct Picture<'a, const D: usize> {
     args: &'a PictureArgs,
     pub(crate) image: Grid<f64, D>,
     pub(crate) mask: Mask<D>,
+    pub(crate) placement: Option<Placement>,
 }
 
 impl<'a, const D: usize> Picture<'a, D> {
     pub(crate) fn new(args: &'a PictureArgs, file: ImageFile) -> Result<Self, Failure> {
-        let spacing = match &args.spacing {
-            Some(spacing) => coordinates("spacing", spacing)?,
-            None => [1.0; D],
-        };
-        Shape::with_spacing([1; D], spacing)?;
+        let spacing =
+            args.spacing.as_ref().map(|given| coordinates("spacing", given)).transpose()?;
+        if let Some(spacing) = spacing {
+            Shape::with_spacing([1; D], spacing)?;
+        }
+        let placement = file.placement();
         let options = PictureOptions {
             channel: match args.channel {
                 ChannelArg::Red => Channel::Red,
@@ -67,12 +66,14 @@ impl<'a, const D: usize> Picture<'a, D> {
             spacing,
         };
         let image = file.into_picture(&options)?;
-        let mask = match &args.mask {
-            Some(file) => read_mask(file, spacing)?,
-            None => Mask::all_open(*image.shape()),
-        };
-        check_size(args.mask.as_deref(), mask.shape(), image.shape())?;
-        let mut picture = Self { args, image, mask };
+        let mask = Mask::all_open(*image.shape());
+        let mut picture = Self { args, image, mask, placement };
+        if let Some(path) = &args.mask {
+            let file = ImageFile::read(path)?;
+            picture.check_place(path, &file)?;
+            picture.mask = file.into_mask(picture.image.shape().spacing())?;
+            check_size(path, picture.mask.shape(), picture.image.shape())?;
+        }
         check_not_negative("--margin", args.margin)?;
         if args.margin > 0.0 {
             let unit = picture.image.shape().smallest_spacing();
@@ -84,9 +85,8 @@ impl<'a, const D: usize> Picture<'a, D> {
         }
         if let Some(sigma) = args.normalize {
             let (sigma, exec) = (picture.smoothing(sigma), Exec::single_threaded());
-            let normalized = normalize_contrast(&picture.image, sigma, &picture.mask, &exec)
+            picture.image = even_grey(&picture.image, sigma, &picture.mask, &exec)
                 .map_err(MediumError::from)?;
-            picture.image = normalized.map(|&d| (0.5 + DEVIATION * d).clamp(0.0, 1.0));
         }
         Ok(picture)
     }
@@ -104,13 +104,47 @@ impl<'a, const D: usize> Picture<'a, D> {
             points.extend(read_points::<D>(file)?);
         }
         if self.args.physical {
-            let spacing = self.image.shape().spacing();
-            for point in &mut points {
-                *point = std::array::from_fn(|axis| point[axis] / spacing[axis]);
+            let (spacing, place) =
+                (self.image.shape().spacing(), self.placement.unwrap_or_default());
+            for (number, point) in points.iter_mut().enumerate() {
+                *point = place.to_pixels(*point, spacing).ok_or_else(|| {
+                    Failure::bad_input(format!(
+                        "{role} {number}: lies outside of the picture's plane; give it in pixels, \
+                         without --physical"
+                    ))
+                })?;
             }
         }
         check_points(role, &points, &self.mask)?;
         Ok(points)
+    }
+
+    /// Refuses a second file that says that it lies elsewhere. It says nothing if --spacing does.
+    fn check_place(&self, path: &Path, file: &ImageFile) -> Result<(), Failure> {
+        let theirs = file.placement().zip(file.spacing::<D>());
+        let (Some(ours), Some((theirs, spacing)), None) =
+            (self.placement, theirs, &self.args.spacing)
+        else {
+            return Ok(());
+        };
+        let shape = self.image.shape();
+        let gap = |corner: usize| {
+            let last = |axis: usize| (shape.size()[axis] - 1) as f64;
+            let point = std::array::from_fn(|axis| (corner >> axis & 1) as f64 * last(axis));
+            let (here, there) =
+                (ours.to_world(point, shape.spacing()), theirs.to_world(point, spacing));
+            here.iter().zip(there).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        let gap = (0..1 << D).map(gap).fold(0.0, f64::max);
+        if gap <= shape.smallest_spacing() {
+            return Ok(());
+        }
+        Err(Failure::bad_input(format!(
+            "{}: lies elsewhere: one of its corners is {gap:.3} away from that of {}; --spacing \
+             makes this file's place count for nothing",
+            path.display(),
+            self.args.input.display()
+        )))
     }
 
     /// The sources, of which there may be none.
@@ -216,6 +250,7 @@ impl<'a, const D: usize> Picture<'a, D> {
         };
         let shape = self.image.shape();
         let file = ImageFile::read(path)?;
+        self.check_place(path, &file)?;
         let medium = if file.has_tensors(D) {
             if matches!(args.form, Some(FormArg::Pointwise)) {
                 let message =
@@ -223,11 +258,11 @@ impl<'a, const D: usize> Picture<'a, D> {
                 return Err(Failure::usage(format!("{}: {message}", path.display())));
             }
             let field = file.into_tensors(shape.spacing())?;
-            check_size(Some(path), field.shape(), shape)?;
+            check_size(path, field.shape(), shape)?;
             medium::given_tensor(field)
         } else {
             let field = file.into_field(shape.spacing())?;
-            check_size(Some(path), field.shape(), shape)?;
+            check_size(path, field.shape(), shape)?;
             medium::given(field, form(args, Form::Pointwise))
         };
         medium.map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
@@ -294,7 +329,7 @@ pub(crate) fn coordinates<const D: usize>(
 
 /// Checks that a second file fits the picture.
 fn check_size<const D: usize>(
-    file: Option<&Path>,
+    file: &Path,
     given: &Shape<D>,
     picture: &Shape<D>,
 ) -> Result<(), Failure> {
@@ -303,7 +338,7 @@ fn check_size<const D: usize>(
     }
     Err(Failure::bad_input(format!(
         "{}: has {} pixels but the picture has {}",
-        file.map(|file| file.display().to_string()).unwrap_or_default(),
+        file.display(),
         size_text(given.size()),
         size_text(picture.size()),
     )))

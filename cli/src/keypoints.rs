@@ -5,8 +5,9 @@ use crate::failure::Failure;
 use crate::input::{Input, Picture};
 use crate::output;
 use crate::run::run;
-use crate::structure::Structure;
+use crate::structure;
 use heatpath_core::Exec;
+use heatpath_core::grid::Structure;
 use heatpath_core::grid::keypoints::{
     KeyPointOptions, KeyPoints, LengthOptions, Stop, key_points, key_points_by_length,
 };
@@ -34,7 +35,7 @@ fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result
         check_dimension(file, None, D)?;
     }
     let picture = Picture::<D>::new(&args.picture, file)?;
-    let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
+    let found = structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
     let options = options(args, &found)?;
     let found_points = run("key points", (args.structure.threads, args.out.quiet), |exec| {
         search(args.method, &found, &options, exec)
@@ -42,13 +43,14 @@ fn keypoints_in<const D: usize>(args: &KeyPointsArgs, file: ImageFile) -> Result
     // === Write
     let shape = picture.image.shape();
     let paths = found_points.links.iter().map(|link| link.path.clone()).collect();
-    let curves =
-        Curves { spacing: shape.spacing(), paths, key_points: found_points.points.clone() };
+    let (spacing, placement) = (shape.spacing(), picture.placement);
+    let curves = Curves { spacing, placement, paths, key_points: found_points.points.clone() };
     if let Some(output) = &args.output {
         write_curves(output, args.out.format.as_deref(), args.out.force, &curves, shape)?;
     }
     if let Some(file) = &args.travelling {
-        let style = FieldStyle { title: Some("travelling map".to_owned()) };
+        let style =
+            FieldStyle { title: Some("travelling map".to_owned()), placement: picture.placement };
         write_field(file, None, args.out.force, &found_points.travelling, &style)?;
     }
     if let Some(overlay) = &args.out.overlay {

@@ -30,7 +30,7 @@ fn medium_in<const D: usize>(args: &MediumCommandArgs, file: ImageFile) -> Resul
     let sources = picture.optional_sources(&args.sources)?;
     let field = picture.medium(&args.medium, &sources, 0)?.speed_sq_field();
     if let Some(output) = &args.output {
-        let style = FieldStyle { title: Some("k D".to_owned()) };
+        let style = FieldStyle { title: Some("k D".to_owned()), placement: picture.placement };
         write_field(output, args.out.format.as_deref(), args.out.force, &field, &style)?;
     }
     if let Some(overlay) = &args.out.overlay {

@@ -82,8 +82,5 @@ pub(crate) fn check_dimension(
     if let Some(output) = output {
         heatpath_io::check_dimension(output, out.format.as_deref(), dimension)?;
     }
-    if let Some(overlay) = &out.overlay {
-        heatpath_io::check_dimension(overlay, None, dimension)?;
-    }
     Ok(())
 }

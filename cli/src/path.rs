@@ -34,7 +34,8 @@ fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Res
         .collect::<Result<Vec<_>, _>>()?;
     // === Write
     let shape = picture.image.shape();
-    let curves = Curves { spacing: shape.spacing(), paths, key_points: Vec::new() };
+    let (spacing, placement) = (shape.spacing(), picture.placement);
+    let curves = Curves { spacing, placement, paths, key_points: Vec::new() };
     if let Some(output) = &args.output {
         write_curves(output, args.out.format.as_deref(), args.out.force, &curves, shape)?;
     }

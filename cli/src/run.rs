@@ -4,10 +4,25 @@ use crate::failure::Failure;
 use heatpath_core::Exec;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C and requests to terminate.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+
+/// Is told how far the work is.
+static OBSERVER: OnceLock<fn(f64)> = OnceLock::new();
+
+/// Lets `observer` know, from now on, which part of a long computation is finished, from 0 to 1. The
+/// first observer stays.
+pub fn watch(observer: fn(f64)) {
+    OBSERVER.get_or_init(|| observer);
+}
+
+/// As Ctrl-C does.
+pub(crate) fn interrupt() {
+    INTERRUPTED.store(true, Ordering::Relaxed);
+}
 
 /// Runs `compute` on `threads` threads (0: one a processor) under a bar that is called after the
 /// `work`.
@@ -19,9 +34,12 @@ pub(crate) fn run<T>(
     let bar = progress_bar(work, quiet);
     // Without a handler an interruption ends the process at once, which leaves no partial file
     // either: outputs are renamed when complete. A second handler is refused, and not needed.
-    drop(ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed)));
+    drop(ctrlc::set_handler(interrupt));
     let exec = Exec::new(threads)?.with_watch(|finished| {
         bar.set_position((finished * 1000.0) as u64);
+        if let Some(observe) = OBSERVER.get() {
+            observe(finished);
+        }
         if INTERRUPTED.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {

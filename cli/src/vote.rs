@@ -6,14 +6,14 @@ use crate::failure::Failure;
 use crate::input::{Input, Picture, check_not_negative};
 use crate::output;
 use crate::run::run;
-use crate::structure::Structure;
+use crate::structure;
 use heatpath_core::Exec;
-use heatpath_core::grid::Sources;
 use heatpath_core::grid::medium::Medium;
 use heatpath_core::grid::skeleton::PruneOptions;
 use heatpath_core::grid::voting::{
     self, Ends, FastMarchingVotingOptions, Growth, Method, Stop, Votes, VotingOptions,
 };
+use heatpath_core::grid::{Sources, Structure};
 use heatpath_io::{
     FieldStyle, ImageFile, Overlay, check_dimension, graph_json, write_field, write_overlay,
 };
@@ -35,7 +35,7 @@ fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failu
         check_dimension(file, None, D)?;
     }
     let picture = Picture::<D>::new(&args.picture, file)?;
-    let found = Structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
+    let found = structure::find(&picture, &args.sources, &args.medium, &args.structure)?;
     let approach = Approach::new(args, &found)?;
     let votes = run("votes", (args.structure.threads, args.out.quiet), |exec| {
         approach.vote(&found.medium, &found.sources, exec)
@@ -44,14 +44,19 @@ fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failu
     let has_growth = matches!(approach, Approach::Heat(VotingOptions { growth: Some(_), .. }));
     let cells = if has_growth { votes.crossed() } else { votes.kept.clone() };
     let graph = found.graph(&cells).pruned(prune);
-    let extraction = Extraction { graph: &graph, kept: &votes.kept, seeds: found.sources.points() };
+    let extraction = Extraction {
+        graph: &graph,
+        kept: &votes.kept,
+        seeds: found.sources.points(),
+        placement: picture.placement,
+    };
     // === Write
     if let Some(output) = &args.output {
         extraction.write(output, &args.out)?;
     }
     if let Some(file) = &args.density {
         let density = votes.density.map(|&votes| f64::from(votes));
-        let style = FieldStyle { title: Some("votes".to_owned()) };
+        let style = FieldStyle { title: Some("votes".to_owned()), placement: picture.placement };
         write_field(file, None, args.out.force, &density, &style)?;
     }
     if let Some(overlay) = &args.out.overlay {
@@ -69,7 +74,7 @@ fn vote_in<const D: usize>(args: &VoteArgs, file: ImageFile) -> Result<(), Failu
     }
     // === Report
     if args.out.json {
-        output::print_json(&graph_json(&graph, extraction.seeds))?;
+        output::print_json(&graph_json(&graph, extraction.seeds, picture.placement))?;
     }
     output::tell(&args.out, &line(&votes, &extraction));
     Ok(())

@@ -244,16 +244,35 @@ fn files_that_do_not_fit_are_told() {
 }
 
 #[test]
-fn volumes_are_not_drawn() {
+fn volumes_are_no_pictures() {
     let bench = bench();
     let words = ["volume", ".npy or .tif", ".json or .csv"];
-    for output in
-        ["-o x.png", "-o x.npy --format png", "-o x.npy --overlay o.png", "--overlay o.png"]
-    {
+    for output in ["-o x.png", "-o x.npy --format png"] {
         bench.fails(&format!("distance v.npy --source 1,2,3 {output}"), 2, &words);
         bench.fails(&format!("medium v.npy --source 1,2,3 {output}"), 2, &words);
     }
     bench.fails("path v.npy --source 1,2,3 --end 4,4,4 -o x.svg", 2, &words);
+}
+
+/// Slices and projections, in the proportions of the spacing.
+#[test]
+fn volumes_are_drawn_as_slices() {
+    let bench = bench();
+    let size = |name: &str| {
+        let picture = image::open(bench.path(name)).unwrap();
+        [picture.width(), picture.height()]
+    };
+    let common = "v.npy --spacing 1,1,3 --source 1,2,3 --overlay";
+    bench.ok(&format!("path {common} path.png --end 20,15,13"));
+    bench.ok(&format!("distance {common} distance.png"));
+    bench.ok(&format!("medium {common} medium.png"));
+    // 48 units are the longest side: 6 pixels each.
+    let [path, distance] = ["path.png", "distance.png"].map(size);
+    assert!(path[0] > 2 * 6 * (24 + 48) && path[1] > 6 * (20 + 48), "{path:?}");
+    assert!(distance[0] > path[0] && distance[1] == path[1], "a bar of colours: {distance:?}");
+    assert_eq!(size("medium.png")[1], path[1]);
+    bench.ok(&format!("vote {common} vote.png --structure 0.2"));
+    bench.ok(&format!("keypoints {common} keypoints.png --structure 0.2"));
 }
 
 /// An array with 3 columns could be colours: three numbers say that it is a volume.

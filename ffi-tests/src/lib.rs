@@ -3,11 +3,16 @@
 //! The programs are in `c/`; `distance.c` is the one to copy from. They are compiled with all
 //! warnings as errors against `include/heatpath.h` and linked to the shared library, which is
 //! installed for them under the name that the loader asks for. This library holds what the tests
-//! share.
+//! share. `hosts/` holds programs for the software of others, built with `CMake` against an installed
+//! heatpath ([`Prefix`]).
 //!
 //! The shared library comes from cargo itself: `heatpath-capi` is a dependency of the tests, so
 //! cargo builds all of its kinds, in the same profile, before they run, and puts them next to the
 //! test program.
+
+mod project;
+
+pub use project::Prefix;
 
 use std::ffi::OsStr;
 use std::fs;
@@ -33,6 +38,42 @@ pub fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
+/// The command, built in the profile of the running test; usually cargo has done so already.
+///
+/// # Panics
+/// It cannot be built.
+#[must_use]
+pub fn heatpath() -> PathBuf {
+    program("heatpath-cli", "heatpath")
+}
+
+/// As [`heatpath`](fn@heatpath) any program of this workspace.
+///
+/// # Panics
+/// It cannot be built.
+#[must_use]
+pub fn program(package: &str, name: &str) -> PathBuf {
+    let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
+    let mut build = Command::new(env!("CARGO"));
+    build.args(["build", "--quiet", "--locked", "--package", package, "--profile", profile]);
+    run(build.current_dir(repository(".")));
+    // Tests run in the folder `deps` beside the programs.
+    let test = std::env::current_exe().expect("a test program knows its path");
+    test.ancestors().nth(2).expect("it lies in two folders").join(name)
+}
+
+/// An array of numpy: values in C order, of a type such as `"<f4"`.
+#[must_use]
+pub fn npy(kind: &str, shape: &[usize], values: &[u8]) -> Vec<u8> {
+    let shape: String = shape.iter().map(|size| format!("{size}, ")).collect();
+    let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({shape}), }}\n");
+    let mut file = b"\x93NUMPY\x01\0".to_vec();
+    file.extend(u16::try_from(header.len()).expect("a header is short").to_le_bytes());
+    file.extend(header.as_bytes());
+    file.extend(values);
+    file
+}
+
 /// A folder of its own in which a test compiles and runs programs.
 #[derive(Debug)]
 pub struct Workshop {
@@ -51,7 +92,11 @@ impl Workshop {
         fs::create_dir_all(&folder).expect("the folder can be made");
         // One name for the linker, one for the loader.
         for name in ["libheatpath.so", "libheatpath.so.0"] {
-            fs::copy(shared_library(), folder.join(name)).expect("the library can be copied");
+            // Linked, as the library is large: in a folder beside its own.
+            let (library, link) = (shared_library(), folder.join(name));
+            let linked =
+                fs::hard_link(&library, &link).or_else(|_| fs::copy(&library, &link).map(drop));
+            linked.expect("the library can be copied");
         }
         Self { folder }
     }
@@ -68,13 +113,38 @@ impl Workshop {
     /// The compiler has anything to say.
     #[must_use]
     pub fn build(&self, source: &str) -> PathBuf {
-        let path = repository("ffi-tests/c").join(source);
-        let program = self.path(source.split('.').next().unwrap_or(source));
+        self.compile(&repository("ffi-tests/c").join(source), &[])
+    }
+
+    /// The same program, which stops at the first use of memory that is not its own, at leaks and at
+    /// undefined behaviour.
+    ///
+    /// # Panics
+    /// The compiler has anything to say.
+    #[must_use]
+    pub fn build_sanitized(&self, source: &str) -> PathBuf {
+        let flags = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+        self.compile(&repository("ffi-tests/c").join(source), &flags)
+    }
+
+    /// Compiles and links a program of `examples/cpp`.
+    ///
+    /// # Panics
+    /// The compiler has anything to say.
+    #[must_use]
+    pub fn example(&self, source: &str) -> PathBuf {
+        self.compile(&repository("examples/cpp").join(source), &[])
+    }
+
+    fn compile(&self, path: &Path, flags: &[&str]) -> PathBuf {
+        let name = path.file_stem().expect("a source has a name").to_string_lossy();
+        let program = self.folder.join(format!("{name}{}", flags.concat()));
         let folder = self.folder.display();
-        let mut compiler = compiler(&path);
-        compiler.args(["-g", "-O1", "-pthread", "-o"]).args([&program, &path]);
+        let mut compiler = compiler(path);
+        compiler.args(["-g", "-O1", "-pthread"]).args(flags);
+        compiler.arg("-o").args([&program, path]);
         compiler.args([format!("-L{folder}"), format!("-Wl,-rpath,{folder}")]);
-        let output = run(compiler.args(["-lheatpath", "-lm"]));
+        let output = run(compiler.args(["-lheatpath", "-lm", "-ldl"]));
         assert!(output.stderr.is_empty(), "{}", text(&output));
         program
     }

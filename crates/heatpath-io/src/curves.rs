@@ -1,8 +1,9 @@
 //! Curves to files: JSON, CSV, SVG, SWC and VTP.
 
 use crate::output::{check_dimension, known_format, write_atomically};
+use crate::placement::World;
 use crate::points::AXES;
-use crate::{WriteError, svg, swc, vtp};
+use crate::{Placement, WriteError, svg, swc, vtp};
 use heatpath_core::grid::Shape;
 use heatpath_core::grid::keypoints::KeyPoint;
 use heatpath_core::grid::path::{Ending, Path as Curve};
@@ -16,6 +17,8 @@ use std::path::Path;
 pub struct Curves<const D: usize> {
     /// The physical distance between neighbouring cell centres along each axis.
     pub spacing: [f64; D],
+    /// Where the grid lies in the world; none: the first cell at 0, the axes along those of the world.
+    pub placement: Option<Placement>,
     /// The paths, each from its end point to its source, in pixel coordinates.
     pub paths: Vec<Curve<D>>,
     /// The key points that the paths connect; none if there are no such.
@@ -35,8 +38,8 @@ impl<const D: usize> Curves<D> {
 ///   same numbers back;
 /// - `.svg`, of pictures only: a drawing in pixel coordinates (the centre of the first pixel is at
 ///   0,0), as large as the picture of the given `shape`, to be laid over it;
-/// - `.swc`: each path as a tree in physical units, its source the root, the radii 0;
-/// - `.vtp`: polylines in physical units, for VTK and `ParaView`, with the arrays `end` (the path's
+/// - `.swc`: each path as a tree in the world, its source the root, the radii 0;
+/// - `.vtp`: polylines in the world, for VTK and `ParaView`, with the arrays `end` (the path's
 ///   number), `source`, `length` (physical) and `distance`; the source and the distance are -1 where
 ///   there is none.
 ///
@@ -52,13 +55,14 @@ pub fn write_curves<const D: usize>(
 ) -> Result<(), WriteError> {
     let format = known_format(path.as_ref(), format, &Curves::<D>::ENDINGS)?;
     check_dimension(&path, Some(format), D)?;
+    let world = World::new(curves.spacing, curves.placement);
     write_atomically(path, overwrite, |out| match format {
         "json" => write_json(out, curves),
         "csv" => write_csv(out, curves),
-        "swc" => swc::write_paths(out, points(curves), curves.spacing),
+        "swc" => swc::write_paths(out, points(curves), world),
         "vtp" => {
             let lines: Vec<_> = points(curves).map(|points| (points, &[][..])).collect();
-            vtp::write(out, &lines, curves.spacing, &arrays(curves))
+            vtp::write(out, &lines, world, &arrays(curves))
         }
         _ => out.write_all(svg::drawing(curves, shape).as_bytes()),
     })
@@ -93,7 +97,8 @@ fn arrays<const D: usize>(curves: &Curves<D>) -> [vtp::LineArray; 4] {
 ///   "keypoints": [ { "point": [0.0, 0.0], "parent": null } ] }
 /// ```
 ///
-/// `ended` is `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
+/// With a placement `origin` and `direction` (a unit vector for each axis) follow the spacing. `ended` is
+/// `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
 /// path ended at one, and `distance` is null where there is none. The key points are left out if there
 /// are none; `parent` is the number of the key point at which one's path ends, null for seeds.
 #[must_use]
@@ -119,6 +124,8 @@ struct Document<'a> {
     version: u32,
     dimension: usize,
     spacing: &'a [f64],
+    #[serde(flatten)]
+    placement: Option<Placement>,
     paths: Vec<Entry<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     keypoints: Vec<KeyPointEntry<'a>>,
@@ -152,6 +159,7 @@ impl<'a> Document<'a> {
             version: 1,
             dimension: D,
             spacing: &curves.spacing,
+            placement: curves.placement,
             paths: curves.paths.iter().map(Entry::new).collect(),
             keypoints: curves.key_points.iter().map(key_point).collect(),
         }

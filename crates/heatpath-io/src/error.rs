@@ -21,10 +21,19 @@ fn coordinates(index: &[usize]) -> String {
     named.join(", ")
 }
 
+fn gibibytes(bytes: u64) -> f64 {
+    bytes as f64 / (1_u64 << 30) as f64
+}
+
+fn components(count: u64) -> &'static str {
+    if count == 1 { "value a cell" } else { "values a cell, or frames" }
+}
+
 /// What a file of that many axes would be.
 fn needed(dimension: usize) -> &'static str {
     if dimension == 3 {
-        "a volume is needed: a TIFF of several grey pages or an NPY array (slices, rows, columns)"
+        "a volume is needed: a medical format, a TIFF of several grey pages or an NPY array (slices, \
+         rows, columns)"
     } else {
         "a picture is needed"
     }
@@ -59,8 +68,8 @@ pub enum ReadError {
     },
     /// The first bytes belong to no known format.
     #[error(
-        "{}: the content is not a known picture; PNG, JPEG, TIFF, PNM (PBM, PGM, PPM) and NPY are \
-         accepted",
+        "{}: the content is not a known picture; PNG, JPEG, TIFF, PNM (PBM, PGM, PPM), NPY, NIfTI, \
+         NRRD, MetaImage and DICOM are accepted",
         path.display()
     )]
     Unrecognised {
@@ -130,6 +139,31 @@ pub enum ReadError {
         size: Vec<u64>,
         /// The length of the file.
         bytes: u64,
+    },
+    /// The file, or what it holds as 64-bit floats, needs more memory than is free.
+    #[error(
+        "{}: needs {:.1} GiB of memory, but {:.1} GiB are free",
+        path.display(), gibibytes(*needed), gibibytes(*available)
+    )]
+    Memory {
+        /// The file.
+        path: PathBuf,
+        /// The bytes that it needs.
+        needed: u64,
+        /// The bytes that are free.
+        available: u64,
+    },
+    /// A cell has several values, or there are several frames, and it was not said which one counts;
+    /// or there is no such.
+    #[error(
+        "{}: has {count} {}; choose one component, from 0 to {}",
+        path.display(), components(*count), count.saturating_sub(1)
+    )]
+    Component {
+        /// The file.
+        path: PathBuf,
+        /// How many values or frames there are.
+        count: u64,
     },
     /// The array is neither a picture nor a volume.
     #[error(
@@ -281,8 +315,8 @@ pub enum WriteError {
     },
     /// The format holds pictures, but a volume was to be written.
     #[error(
-        "{}: a volume cannot be drawn as a picture; write .npy or .tif for fields, .json or .csv \
-         for paths",
+        "{}: a volume cannot be drawn as a picture; write .npy or .tif or a medical format for \
+         fields, .json or .csv for paths",
         path.display()
     )]
     Volume {
@@ -291,16 +325,15 @@ pub enum WriteError {
     },
     /// A layer of an overlay does not have the size of the picture below it.
     #[error(
-        "{}: a field of {} x {} cells does not fit onto a picture of {} x {} pixels",
-        path.display(), field[0], field[1], picture[0], picture[1]
+        "{}: a field of {} does not fit onto {}", path.display(), pixels(field), pixels(picture)
     )]
     Mismatch {
         /// The output.
         path: PathBuf,
-        /// The columns and rows of the picture.
-        picture: [usize; 2],
-        /// The columns and rows of the field.
-        field: [usize; 2],
+        /// Columns, rows and, of a volume, slices of the picture.
+        picture: Vec<usize>,
+        /// Those of the field.
+        field: Vec<usize>,
     },
     /// The format holds a mesh, but no values of its vertices.
     #[error("{}: the format holds no values of vertices; .ply, .vtp and .vtk do", path.display())]

@@ -1,8 +1,9 @@
 //! Fields to files.
 
-use crate::WriteError;
+use crate::encode::{Numbers, Volume};
 use crate::legend::with_legend;
 use crate::output::{check_dimension, known_format, write_atomically};
+use crate::{Placement, WriteError};
 use heatpath_core::grid::Grid;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder, RgbImage};
@@ -29,11 +30,24 @@ pub enum FieldFormat {
     Tiff,
     /// A colour-mapped picture with a colour bar, for eyes; not for volumes.
     Png,
+    /// NRRD of 64-bit floats, raw; keeps infinities, spacing and placement.
+    Nrrd,
+    /// NRRD as a header, and beside it a file that ends in `.raw`.
+    Nhdr,
+    /// `MetaImage` of 64-bit floats, raw; keeps infinities, spacing and placement.
+    Mha,
+    /// `MetaImage` as a header, and beside it a file that ends in `.raw`.
+    Mhd,
+    /// `NIfTI`-1 of 64-bit floats; keeps infinities, spacing and placement, both of single floats.
+    Nifti,
+    /// The same, gzipped.
+    NiftiGz,
 }
 
 impl FieldFormat {
     /// The endings by which the format is chosen.
-    pub const ENDINGS: [&'static str; 4] = ["npy", "tif", "tiff", "png"];
+    pub const ENDINGS: [&'static str; 10] =
+        ["npy", "tif", "tiff", "png", "nrrd", "nhdr", "mha", "mhd", "nii", "nii.gz"];
 
     /// The format called `format`, or else the one that the ending of `path` stands for; capitals
     /// do not matter.
@@ -44,16 +58,35 @@ impl FieldFormat {
         Ok(match known_format(path.as_ref(), format, &Self::ENDINGS)? {
             "npy" => Self::Npy,
             "png" => Self::Png,
+            "nrrd" => Self::Nrrd,
+            "nhdr" => Self::Nhdr,
+            "mha" => Self::Mha,
+            "mhd" => Self::Mhd,
+            "nii" => Self::Nifti,
+            "nii.gz" => Self::NiftiGz,
             _ => Self::Tiff,
         })
     }
+
+    /// Whether the file says where the field lies in the world.
+    fn is_placed(self) -> bool {
+        !matches!(self, Self::Npy | Self::Tiff | Self::Png)
+    }
+
+    /// Whether the numbers go to a second file.
+    pub(crate) fn is_detached(self) -> bool {
+        matches!(self, Self::Nhdr | Self::Mhd)
+    }
 }
 
-/// How a field looks as a picture; the other formats ignore it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What the file of a field says beyond its values; formats leave out what they cannot hold.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldStyle {
-    /// A line of text above the field. Default: none.
+    /// A line of text above the field in a picture. Default: none.
     pub title: Option<String>,
+    /// Where the field lies in the world, in medical formats. Default: the first cell at 0, the axes
+    /// along those of the world.
+    pub placement: Option<Placement>,
 }
 
 /// Writes a field in the given format, or else in the one that the ending of `path` stands for.
@@ -74,6 +107,11 @@ pub fn write_field<const D: usize>(
 ) -> Result<(), WriteError> {
     let format_of_file = FieldFormat::new(&path, format)?;
     check_dimension(&path, format, D)?;
+    if format_of_file.is_placed() {
+        let numbers = Numbers::F64(field.values());
+        let volume = Volume::new(field.shape(), style.placement, numbers);
+        return volume.write(path.as_ref(), format_of_file, overwrite);
+    }
     write_atomically(&path, overwrite, |out| match (format_of_file, as_picture(field)) {
         (FieldFormat::Npy, _) => write_npy(out, field),
         (FieldFormat::Png, Some(field)) => {
@@ -85,7 +123,8 @@ pub fn write_field<const D: usize>(
 }
 
 /// Writes a mask in the given format, or else in the one that the ending of `path` stands for: 255 in
-/// the cells that are true, 0 in the others. A picture (`.png`) has one grey pixel a cell.
+/// the cells that are true, 0 in the others. A picture (`.png`) has one grey pixel a cell, medical
+/// formats a byte.
 ///
 /// # Errors
 /// As [`write_field`].
@@ -94,9 +133,17 @@ pub fn write_mask<const D: usize>(
     format: Option<&str>,
     overwrite: bool,
     mask: &Grid<bool, D>,
+    placement: Option<Placement>,
 ) -> Result<(), WriteError> {
+    let kind = FieldFormat::new(&path, format)?;
+    if kind.is_placed() {
+        let bytes: Vec<u8> =
+            mask.values().iter().map(|&is_in| if is_in { 255 } else { 0 }).collect();
+        let volume = Volume::new(mask.shape(), placement, Numbers::U8(&bytes));
+        return volume.write(path.as_ref(), kind, overwrite);
+    }
     let values = mask.map(|&is_inside| if is_inside { 255.0 } else { 0.0 });
-    match (FieldFormat::new(&path, format)?, as_picture(&values)) {
+    match (kind, as_picture(&values)) {
         (FieldFormat::Png, Some(values)) => write_atomically(&path, overwrite, |out| {
             let size = values.shape().size();
             check_picture_size(size)?;

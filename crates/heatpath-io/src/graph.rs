@@ -2,8 +2,9 @@
 
 use crate::WriteError;
 use crate::output::{known_format, write_atomically};
+use crate::placement::World;
 use crate::points::AXES;
-use crate::{swc, vtp};
+use crate::{Placement, swc, vtp};
 use heatpath_core::grid::skeleton::{Branch, Graph, Node};
 use serde::Serialize;
 use serde_json::Value;
@@ -19,12 +20,13 @@ pub const GRAPH_ENDINGS: [&str; 4] = ["json", "csv", "swc", "vtp"];
 /// - `.csv`: one row a branch, counted from 0, with its nodes, lengths, tortuosity, mean radius and the
 ///   points of its ends in pixel coordinates:
 ///   `branch,from,to,length,physical_length,tortuosity,mean_radius,from_x,from_y,to_x,to_y`;
-/// - `.swc`: trees in physical units, each rooted at its node that is the nearest to any of the
+/// - `.swc`: trees in the world, each rooted at its node that is the nearest to any of the
 ///   `seeds` (pixel coordinates; its first node if there are none); a branch that would close a loop
 ///   ends before its last point, which a comment line says;
-/// - `.vtp`: polylines in physical units with the radius at each point, for VTK and `ParaView`.
+/// - `.vtp`: polylines in the world with the radius at each point, for VTK and `ParaView`.
 ///
-/// In SWC and VTP the centre of the first cell is the origin, and radii that are not known are 0.
+/// Without a `placement` the centre of the first cell is the origin of the world. In SWC and VTP radii
+/// that are not known are 0.
 ///
 /// # Errors
 /// The format is unknown, the folder is missing, the file exists and `overwrite` is not set, or the
@@ -35,19 +37,21 @@ pub fn write_graph<const D: usize>(
     overwrite: bool,
     graph: &Graph<D>,
     seeds: &[[f64; D]],
+    placement: Option<Placement>,
 ) -> Result<(), WriteError> {
+    let world = World::new(graph.shape.spacing(), placement);
     let format = known_format(path.as_ref(), format, &GRAPH_ENDINGS)?;
     write_atomically(path, overwrite, |out| match format {
         "json" => {
-            serde_json::to_writer(&mut *out, &Document::new(graph, seeds))?;
+            serde_json::to_writer(&mut *out, &Document::new(graph, seeds, placement))?;
             writeln!(out)
         }
         "csv" => write_csv(out, graph),
-        "swc" => swc::write_graph(out, graph, seeds),
+        "swc" => swc::write_graph(out, graph, seeds, world),
         _ => {
             let lines = graph.branches.iter();
             let lines = lines.map(|branch| (branch.points.as_slice(), branch.radii.as_slice()));
-            vtp::write(out, &lines.collect::<Vec<_>>(), graph.shape.spacing(), &[])
+            vtp::write(out, &lines.collect::<Vec<_>>(), world, &[])
         }
     })
 }
@@ -64,12 +68,17 @@ pub fn write_graph<const D: usize>(
 ///
 /// The paths are the branches, `from` and `to` their nodes. A path `ended` at `source` if one of the
 /// `seeds`, that with the lowest number, is the nearest to a node of its piece of the graph; if none is,
-/// it is `unreachable` from them, and `source` is null. Points are in pixel coordinates. What is infinite,
+/// it is `unreachable` from them, and `source` is null. Points are in pixel coordinates. With a placement
+/// `origin` and `direction` (a unit vector for each axis) follow the spacing. What is infinite,
 /// such as the tortuosity of a closed curve, is null.
 #[must_use]
-pub fn graph_json<const D: usize>(graph: &Graph<D>, seeds: &[[f64; D]]) -> Value {
+pub fn graph_json<const D: usize>(
+    graph: &Graph<D>,
+    seeds: &[[f64; D]],
+    placement: Option<Placement>,
+) -> Value {
     // Numbers, strings and lists always convert.
-    serde_json::to_value(Document::new(graph, seeds)).unwrap_or_default()
+    serde_json::to_value(Document::new(graph, seeds, placement)).unwrap_or_default()
 }
 
 /// The layout of the JSON file.
@@ -78,6 +87,8 @@ struct Document<'a> {
     version: u32,
     dimension: usize,
     spacing: Vec<f64>,
+    #[serde(flatten)]
+    placement: Option<Placement>,
     nodes: Vec<NodeEntry<'a>>,
     paths: Vec<BranchEntry<'a>>,
 }
@@ -105,7 +116,11 @@ struct BranchEntry<'a> {
 }
 
 impl<'a> Document<'a> {
-    fn new<const D: usize>(graph: &'a Graph<D>, seeds: &[[f64; D]]) -> Self {
+    fn new<const D: usize>(
+        graph: &'a Graph<D>,
+        seeds: &[[f64; D]],
+        placement: Option<Placement>,
+    ) -> Self {
         let sources = sources(graph, seeds);
         let node = |node: &'a Node<D>| NodeEntry {
             point: &node.point,
@@ -129,6 +144,7 @@ impl<'a> Document<'a> {
             version: 1,
             dimension: D,
             spacing: graph.shape.spacing().to_vec(),
+            placement,
             nodes: graph.nodes.iter().map(node).collect(),
             paths: graph.branches.iter().map(branch).collect(),
         }

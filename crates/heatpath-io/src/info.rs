@@ -1,7 +1,7 @@
 //! What is in a file.
 
 use crate::decode::{Format, Raster};
-use crate::{ImageFile, ReadError, SampleType};
+use crate::{ImageFile, Placement, ReadError, SampleType};
 use serde::Serialize;
 use std::path::Path;
 
@@ -23,6 +23,12 @@ pub struct Info {
     pub max: Option<f64>,
     /// How many values are infinite or not a number, alpha left out.
     pub not_finite: usize,
+    /// The distance between neighbouring cell centres along each axis, if the file says so.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<Vec<f64>>,
+    /// Where the grid lies in the world, if the file says so.
+    #[serde(flatten)]
+    pub placement: Option<Placement>,
     /// The pictures in the file; more than 1 only for TIFF. They are the slices of a volume, or else
     /// the first one is read.
     pub pages: usize,
@@ -50,6 +56,8 @@ impl ImageFile {
             min,
             max,
             not_finite,
+            spacing: raster.geometry.map(|place| place.spacing[..raster.size.len()].to_vec()),
+            placement: self.placement(),
             pages: raster.pages,
         }
     }

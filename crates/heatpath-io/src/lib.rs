@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | in | pictures, fields, masks ([`read_picture`], [`read_field`], [`read_mask`]) | PNG, JPEG, TIFF, PNM, NPY |
 //! | in | the same of volumes | TIFF of several pages, NPY of three axes |
+//! | in | pictures and volumes with their place in the world ([`Placement`]) | `NIfTI`, NRRD, `MetaImage`, DICOM |
 //! | in | tensor fields ([`read_tensors`]) | NPY with one more axis |
 //! | in | a picture or a volume, as the file says ([`ImageFile`]) | as these |
 //! | in | points ([`read_points`]) | CSV, JSON |
@@ -11,7 +12,7 @@
 //! | in | triangle meshes ([`read_mesh`]) | PLY, OBJ, STL, OFF, VTK, VTP, glTF, `FreeSurfer` |
 //! | in | values of their vertices ([`read_mesh_values`]) | NPY, CSV, `FreeSurfer` |
 //! | in | what a file holds ([`info`](fn@info)) | as pictures and volumes |
-//! | out | fields and masks ([`write_field`], [`write_mask`]) | NPY, TIFF, PNG |
+//! | out | fields and masks ([`write_field`], [`write_mask`]) | NPY, TIFF, PNG, `NIfTI`, NRRD, `MetaImage` |
 //! | out | curves ([`write_curves`]) | JSON, CSV, SVG, SWC, VTP |
 //! | out | skeleton graphs ([`write_graph`]) | JSON, CSV, SWC, VTP |
 //! | out | meshes and values of their vertices ([`write_mesh`]) | PLY, VTP, VTK; bare OBJ, OFF, STL |
@@ -19,9 +20,11 @@
 //! | out | paths on meshes ([`write_mesh_paths`]) | JSON, CSV, SWC, VTP |
 //! | out | a mesh with values and paths ([`write_mesh_picture`]) | PNG |
 //! | out | recall and precision ([`write_scores`]) | JSON, CSV |
-//! | out | a result on its picture ([`write_overlay`]) | PNG |
+//! | out | a result on its picture or on slices of its volume ([`write_overlay`]) | PNG |
+//! | out | what was written, small ([`thumbnail`](fn@thumbnail)) | JPEG in memory |
 //!
-//! PNG and SVG are for pictures only; all else is the same in two and three dimensions.
+//! Of volumes PNG shows overlays only, and SVG nothing; all else is the same in two and three
+//! dimensions.
 //!
 //! Inputs are recognised by their content, outputs by the ending of their name. Inputs are not
 //! trusted: no size is believed before the file is long enough for it, and each error is one line
@@ -44,25 +47,31 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod canvas;
 pub mod colour;
 pub mod curves;
 mod decode;
+mod encode;
 mod error;
 pub mod field;
 pub mod graph;
 mod info;
 mod legend;
+mod memory;
 pub mod mesh;
 pub mod output;
 pub mod overlay;
 pub mod picture;
+mod placement;
 mod points;
 mod polylines;
 mod sample;
 pub mod scores;
+mod slices;
 mod svg;
 mod swc;
 mod text;
+pub mod thumbnail;
 mod vtp;
 
 pub use colour::colour_map;
@@ -77,12 +86,14 @@ pub use mesh::{
     read_mesh_values, render_mesh, write_mesh, write_mesh_paths, write_mesh_picture,
     write_mesh_values,
 };
-pub use output::{check_dimension, check_output, write_atomically};
+pub use output::{check_dimension, check_output, remove_leftovers, write_atomically};
 pub use overlay::{Overlay, write_overlay};
 pub use picture::{
     Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture, read_tensors,
 };
+pub use placement::Placement;
 pub use points::{read_points, read_points_from_bytes};
 pub use polylines::CurveFile;
 pub use sample::SampleType;
 pub use scores::{scores_json, write_scores};
+pub use thumbnail::{Thumbnail, thumbnail};

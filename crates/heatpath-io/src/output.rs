@@ -2,7 +2,8 @@
 //!
 //! An output is written to a temporary file in the folder of its destination and renamed when it is
 //! complete: an interruption, a full disk or an error leaves nothing behind, and readers never see
-//! half a file.
+//! half a file. Only a process that is killed leaves its temporary file, whose name says of which
+//! output: [`remove_leftovers`].
 
 use crate::WriteError;
 use std::fs::{self, File, Metadata};
@@ -10,8 +11,23 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// What the names of temporary files have between that of the output and their own.
+const MARK: &str = ".heatpath-";
+
+/// The ending of temporary files.
+const PART: &str = ".part";
+
+/// How many bytes of an output's name go into that of its temporary file: names have 255 at most.
+const NAME: usize = 180;
+
 /// The endings of formats for eyes.
 const PICTURES: [&str; 2] = ["png", "svg"];
+
+/// The endings of headers whose data go to a file of their own.
+const DETACHED: [&str; 2] = ["mhd", "nhdr"];
+
+/// The one ending with a dot inside.
+const GZIPPED: &str = ".nii.gz";
 
 /// Checks, before a long computation, that an output can be written afterwards.
 ///
@@ -28,7 +44,9 @@ pub fn check_output(
     kinds: &[&str],
 ) -> Result<(), WriteError> {
     let path = path.as_ref();
-    known_format(path, format, kinds)?;
+    if DETACHED.contains(&known_format(path, format, kinds)?) {
+        check_free(&companion(path), overwrite)?;
+    }
     match destination(path, overwrite)? {
         Destination::Device => Ok(()),
         Destination::File { path: target, .. } => tempfile::tempfile_in(folder(&target))
@@ -82,6 +100,24 @@ pub fn write_atomically(
     })
 }
 
+/// Removes the temporary files that processes left which were killed while they wrote `path`.
+///
+/// No process may be writing it now. A missing folder is no error.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn remove_leftovers(path: impl AsRef<Path>) -> Result<(), WriteError> {
+    let path = path.as_ref();
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let prefix = temporary_prefix(&target);
+    let is_leftover = |name: &str| name.starts_with(&prefix) && name.ends_with(PART);
+    let entries = fs::read_dir(folder(&target)).into_iter().flatten().flatten();
+    let leftovers = entries.filter(|entry| entry.file_name().to_str().is_some_and(is_leftover));
+    leftovers
+        .map(|entry| entry.path())
+        .try_for_each(|file| fs::remove_file(&file).map_err(|source| io_error(&file, source)))
+}
+
 /// The one of `kinds` that is named by `format` or else by the ending of `path`.
 pub(crate) fn known_format<'a>(
     path: &Path,
@@ -95,8 +131,24 @@ pub(crate) fn known_format<'a>(
     })
 }
 
-fn ending(path: &Path) -> &str {
-    path.extension().and_then(|ending| ending.to_str()).unwrap_or_default()
+/// The ending of a name without its dot, with `nii.gz` taken for one; empty if there is none.
+#[must_use]
+pub fn ending(path: &Path) -> &str {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    match name.len().checked_sub(GZIPPED.len()).and_then(|start| name.get(start..)) {
+        Some(end) if end.eq_ignore_ascii_case(GZIPPED) => &end[1..],
+        _ => path.extension().and_then(|ending| ending.to_str()).unwrap_or_default(),
+    }
+}
+
+/// The file for the data of a header.
+pub(crate) fn companion(header: &Path) -> PathBuf {
+    header.with_extension("raw")
+}
+
+/// Refuses a file that exists, unless it may be overwritten.
+pub(crate) fn check_free(path: &Path, overwrite: bool) -> Result<(), WriteError> {
+    destination(path, overwrite).map(drop)
 }
 
 /// What the name of an output stands for.
@@ -147,7 +199,7 @@ fn write_file(
     existing: Option<&Metadata>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut file = temporary(folder(path))?;
+    let mut file = temporary(path)?;
     let mut buffer = BufWriter::new(file.as_file_mut());
     write(&mut buffer)?;
     buffer.flush()?;
@@ -160,13 +212,22 @@ fn write_file(
     Ok(())
 }
 
-/// A temporary file with the permissions that a new file gets: all that the umask leaves.
-fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+/// A temporary file beside `path` with the permissions that a new file gets: all that the umask leaves.
+fn temporary(path: &Path) -> io::Result<NamedTempFile> {
+    let prefix = temporary_prefix(path);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".heatpath-").suffix(".part");
+    builder.prefix(&prefix).suffix(PART);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+    builder.tempfile_in(folder(path))
+}
+
+/// How the names of temporary files for `path` begin.
+fn temporary_prefix(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let length = name.char_indices().map(|(start, c)| start + c.len_utf8());
+    let kept = length.take_while(|&end| end <= NAME).last().unwrap_or(0);
+    format!(".{}{MARK}", &name[..kept])
 }
 
 fn write_device(

@@ -1,33 +1,21 @@
-//! Results drawn on the picture from which they come.
+//! Results drawn on the picture from which they come, or on slices of the volume.
 
 use crate::WriteError;
+use crate::canvas::{Canvas, WHITE, YELLOW, reached_source};
 use crate::colour::{NOT_FINITE, colour_of, enlargement, finite_range};
 use crate::field::{as_picture, check_picture_size, write_png};
 use crate::output::{known_format, write_atomically};
+use crate::slices::slices;
 use heatpath_core::grid::Grid;
 use heatpath_core::grid::keypoints::KeyPoint;
-use heatpath_core::grid::path::{Ending, Path as Curve};
-use image::RgbImage;
+use heatpath_core::grid::path::Path as Curve;
+use image::{Rgb, RgbImage};
+use std::any::Any;
 use std::io;
 use std::path::Path;
-use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke,
-    StrokeDash, Transform,
-};
 
 /// How much of a field's colour covers the picture.
 const COVER: f64 = 0.5;
-
-pub(crate) const BLACK: [u8; 4] = [0, 0, 0, 255];
-pub(crate) const WHITE: [u8; 4] = [255, 255, 255, 255];
-const YELLOW: [u8; 4] = [255, 225, 0, 255];
-pub(crate) const RED: [u8; 4] = [230, 20, 30, 255];
-/// Under each curve, so that it shows on light ground.
-pub(crate) const SHADOW: [u8; 4] = [0, 20, 40, 200];
-/// Curves that reached a source.
-pub(crate) const CYAN: [u8; 4] = [0, 210, 255, 255];
-/// Curves that did not.
-pub(crate) const ORANGE: [u8; 4] = [255, 150, 0, 255];
 
 /// What is drawn on a picture.
 #[derive(Clone, Copy, Debug, Default)]
@@ -50,10 +38,14 @@ pub struct Overlay<'a, const D: usize> {
 ///
 /// Each cell is one pixel; if the longest side is below 256, each is a square of several pixels.
 ///
+/// Of a volume there are three slices at right angles, through the middle of the longest curve (else
+/// the first source, else the middle of the volume), and beside them the largest values along each axis,
+/// all in the proportions of its spacing. The field and the pieces of curves within a cell and a half are
+/// drawn on the slices, whole curves on the projections.
+///
 /// # Errors
-/// The ending is not `.png`, the picture is a volume, the sizes differ, the picture is too large,
-/// the folder is missing, the file exists and `overwrite` is not set, or the operating system
-/// refuses.
+/// The ending is not `.png`, the sizes differ, the picture is too large, the folder is missing, the
+/// file exists and `overwrite` is not set, or the operating system refuses.
 pub fn write_overlay<const D: usize>(
     path: impl AsRef<Path>,
     overwrite: bool,
@@ -62,22 +54,26 @@ pub fn write_overlay<const D: usize>(
 ) -> Result<(), WriteError> {
     let path = path.as_ref();
     known_format(path, None, &["png"])?;
-    let Some(picture) = as_picture(picture) else {
-        return Err(WriteError::Volume { path: path.to_owned() });
-    };
-    let field = layers.field.and_then(as_picture);
-    let size = picture.shape().size();
-    if let Some(field) = field.map(|field| field.shape().size())
+    let size = picture.shape().size().to_vec();
+    if let Some(field) = layers.field.map(|field| field.shape().size().to_vec())
         && field != size
     {
         return Err(WriteError::Mismatch { path: path.to_owned(), picture: size, field });
     }
-    write_atomically(path, overwrite, |out| {
-        write_png(out, &drawn(Canvas::new(picture, field)?, layers))
-    })
+    if let Some(volume) = (picture as &dyn Any).downcast_ref() {
+        return write_atomically(path, overwrite, |out| write_png(out, &slices(volume, layers)?));
+    }
+    let Some(picture) = as_picture(picture) else {
+        return Err(WriteError::Volume { path: path.to_owned() });
+    };
+    write_atomically(path, overwrite, |out| write_png(out, &drawn(picture, layers)?))
 }
 
-fn drawn<const D: usize>(mut canvas: Canvas, layers: &Overlay<'_, D>) -> RgbImage {
+fn drawn<const D: usize>(picture: &Grid<f64, 2>, layers: &Overlay<'_, D>) -> io::Result<RgbImage> {
+    let size = picture.shape().size();
+    check_picture_size(size)?;
+    let field = layers.field.and_then(as_picture);
+    let mut canvas = Canvas::new(&ground(picture, field), enlargement(size))?;
     canvas.draw_paths(layers.paths);
     if !layers.are_pieces {
         let ends = layers.paths.iter().filter_map(|path| path.points.first());
@@ -87,11 +83,11 @@ fn drawn<const D: usize>(mut canvas: Canvas, layers: &Overlay<'_, D>) -> RgbImag
     for source in sources(layers) {
         canvas.draw_source(source);
     }
-    canvas.into_picture()
+    Ok(canvas.into_picture())
 }
 
 /// The sources, each once.
-fn sources<const D: usize>(layers: &Overlay<'_, D>) -> Vec<[f64; D]> {
+pub(crate) fn sources<const D: usize>(layers: &Overlay<'_, D>) -> Vec<[f64; D]> {
     let reached = layers.paths.iter().filter(|path| !layers.are_pieces && reached_source(path));
     let mut all: Vec<[f64; D]> = layers.sources.to_vec();
     for &source in reached.filter_map(|path| path.points.last()) {
@@ -102,144 +98,23 @@ fn sources<const D: usize>(layers: &Overlay<'_, D>) -> Vec<[f64; D]> {
     all
 }
 
-fn reached_source<const D: usize>(path: &Curve<D>) -> bool {
-    matches!(path.ending, Ending::Source(_))
-}
-
-/// A picture to draw on; of points the first two coordinates count.
-struct Canvas {
-    pixels: Pixmap,
-    /// From pixel coordinates of the grid to those of the canvas, whose pixel centres are at .5.
-    transform: Transform,
-    /// Canvas pixels a cell.
-    scale: f32,
-    /// The width of curves in canvas pixels.
-    line: f32,
-}
-
-impl Canvas {
-    fn new(picture: &Grid<f64, 2>, field: Option<&Grid<f64, 2>>) -> io::Result<Self> {
-        let size = picture.shape().size();
-        check_picture_size(size)?;
-        let factor = enlargement(size);
-        let [width, height] = size.map(|n| (n * factor) as u32);
-        let mut pixels = Pixmap::new(width, height)
-            .ok_or_else(|| io::Error::other("the picture is too large to draw on"))?;
-        let ground = ground(picture, field);
-        for (i, pixel) in pixels.pixels_mut().iter_mut().enumerate() {
-            let (x, y) = (i % width as usize / factor, i / width as usize / factor);
-            *pixel = ground[y * size[0] + x];
-        }
-        let scale = factor as f32;
-        let line = (width.max(height) as f32 / 300.0).clamp(2.0, 6.0);
-        let transform = Transform::from_row(scale, 0.0, 0.0, scale, 0.5 * scale, 0.5 * scale);
-        Ok(Self { pixels, transform, scale, line })
-    }
-
-    /// All outlines first: where curves meet they run into one another.
-    fn draw_paths<const D: usize>(&mut self, paths: &[Curve<D>]) {
-        for (widening, outline) in [(1.6, true), (0.0, false)] {
-            for path in paths.iter().filter(|path| path.points.len() > 1) {
-                let colour = match reached_source(path) {
-                    _ if outline => SHADOW,
-                    true => CYAN,
-                    false => ORANGE,
-                };
-                self.draw_path(path, colour, self.line + widening);
-            }
-        }
-    }
-
-    fn draw_path<const D: usize>(&mut self, path: &Curve<D>, colour: [u8; 4], width: f32) {
-        let mut builder = PathBuilder::new();
-        for (i, point) in path.points.iter().enumerate() {
-            let (x, y) = (point[0] as f32, point[1] as f32);
-            match i {
-                0 => builder.move_to(x, y),
-                _ => builder.line_to(x, y),
-            }
-        }
-        let mut stroke = self.stroke(width);
-        if !reached_source(path) {
-            let unit = self.line / self.scale;
-            stroke.line_cap = LineCap::Butt;
-            stroke.dash = StrokeDash::new(vec![4.0 * unit, 3.0 * unit], 0.0);
-        }
-        self.draw_stroke(builder, colour, &stroke);
-    }
-
-    fn draw_dot<const D: usize>(&mut self, at: [f64; D], colour: [u8; 4]) {
-        let (x, y) = (at[0] as f32, at[1] as f32);
-        let radius = (1.3 * self.line).max(3.0);
-        for (radius, colour) in [(radius + 1.2, BLACK), (radius, colour)] {
-            let circle = PathBuilder::from_circle(x, y, radius / self.scale);
-            if let Some(circle) = circle {
-                let paint = paint(colour);
-                self.pixels.fill_path(&circle, &paint, FillRule::Winding, self.transform, None);
-            }
-        }
-    }
-
-    fn draw_source<const D: usize>(&mut self, source: [f64; D]) {
-        let (x, y) = (source[0] as f32, source[1] as f32);
-        let arm = (2.2 * self.line).max(4.5) / self.scale;
-        for (width, colour) in [(self.line + 3.0, WHITE), (self.line + 0.6, RED)] {
-            let mut builder = PathBuilder::new();
-            for sign in [-1.0, 1.0] {
-                builder.move_to(x - arm, y - sign * arm);
-                builder.line_to(x + arm, y + sign * arm);
-            }
-            self.draw_stroke(builder, colour, &self.stroke(width));
-        }
-    }
-
-    /// A stroke whose width is given in canvas pixels.
-    fn stroke(&self, width: f32) -> Stroke {
-        Stroke {
-            width: width / self.scale,
-            line_cap: LineCap::Round,
-            line_join: LineJoin::Round,
-            ..Stroke::default()
-        }
-    }
-
-    fn draw_stroke(&mut self, builder: PathBuilder, colour: [u8; 4], stroke: &Stroke) {
-        if let Some(path) = builder.finish() {
-            self.pixels.stroke_path(&path, &paint(colour), stroke, self.transform, None);
-        }
-    }
-
-    /// The canvas is opaque: alpha can go.
-    fn into_picture(self) -> RgbImage {
-        let (width, pixels) = (self.pixels.width() as usize, self.pixels.pixels());
-        RgbImage::from_fn(self.pixels.width(), self.pixels.height(), |x, y| {
-            let pixel = pixels[y as usize * width + x as usize];
-            image::Rgb([pixel.red(), pixel.green(), pixel.blue()])
-        })
-    }
-}
-
-fn paint(colour: [u8; 4]) -> Paint<'static> {
-    let [r, g, b, a] = colour;
-    let mut paint = Paint { anti_alias: true, ..Paint::default() };
-    paint.set_color(Color::from_rgba8(r, g, b, a));
-    paint
-}
-
 /// The grey picture with the field's colours over it, one pixel a cell.
-fn ground(picture: &Grid<f64, 2>, field: Option<&Grid<f64, 2>>) -> Vec<PremultipliedColorU8> {
-    let (low, high) = field.and_then(finite_range).unwrap_or((0.0, 0.0));
-    let colour = |i: usize| {
-        let below = grey(picture.values()[i]);
-        match field.and_then(|field| colour_of(field.values()[i], low, high)) {
-            Some(above) => std::array::from_fn(|c| mixed(below[c], above[c])),
-            None => below,
-        }
-    };
-    (0..picture.values().len())
-        .map(colour)
-        .map(|[r, g, b]: [u8; 3]| Color::from_rgba8(r, g, b, 255).premultiply().to_color_u8())
-        .collect()
+fn ground(picture: &Grid<f64, 2>, field: Option<&Grid<f64, 2>>) -> RgbImage {
+    let range = field.and_then(finite_range).unwrap_or((0.0, 0.0));
+    let [width, height] = picture.shape().size();
+    RgbImage::from_fn(width as u32, height as u32, |x, y| {
+        let cell = [x as usize, y as usize];
+        Rgb(tinted(picture[cell], field.map(|field| field[cell]), range))
+    })
+}
+
+/// A grey value (0 to 1), half covered by the colour of a value from a range if that is finite.
+pub(crate) fn tinted(value: f64, above: Option<f64>, (low, high): (f64, f64)) -> [u8; 3] {
+    let below = grey(value);
+    match above.and_then(|above| colour_of(above, low, high)) {
+        Some(above) => std::array::from_fn(|c| mixed(below[c], above[c])),
+        None => below,
+    }
 }
 
 fn grey(value: f64) -> [u8; 3] {

@@ -1,7 +1,7 @@
 //! Pictures, volumes, fields of numbers and of tensors, and masks from files.
 
-use crate::ReadError;
-use crate::decode::{Raster, decode};
+use crate::decode::{Raster, Wanted, decode, decode_folder};
+use crate::{Placement, ReadError, memory};
 use heatpath_core::grid::{Grid, LengthError, Mask, Shape, TensorField, fraction};
 use std::path::{Path, PathBuf};
 
@@ -34,13 +34,13 @@ pub struct PictureOptions<const D: usize> {
     /// to the largest value of the picture. A constant picture becomes 0.
     pub range: Option<(f64, f64)>,
     /// The physical distance between the centres of two neighbouring columns, of two neighbouring
-    /// rows and, in volumes, of two neighbouring slices, positive. Default: 1.
-    pub spacing: [f64; D],
+    /// rows and, in volumes, of two neighbouring slices, positive. Default: as the file says, else 1.
+    pub spacing: Option<[f64; D]>,
 }
 
 impl<const D: usize> Default for PictureOptions<D> {
     fn default() -> Self {
-        Self { channel: Channel::default(), range: None, spacing: [1.0; D] }
+        Self { channel: Channel::default(), range: None, spacing: None }
     }
 }
 
@@ -48,7 +48,9 @@ impl<const D: usize> Default for PictureOptions<D> {
 ///
 /// Pictures are PNG, JPEG, TIFF, PNM and arrays of numpy of shape (rows, columns) or, in colour,
 /// (rows, columns, 3 or 4). Volumes are TIFF files of several grey pages of one size and type, and
-/// arrays of shape (slices, rows, columns).
+/// arrays of shape (slices, rows, columns). Medical formats hold either.
+///
+/// Where a `spacing` is asked for, `None` is that of the file, or 1 where the file has none.
 ///
 /// ```
 /// use heatpath_core::grid::{Grid, Shape};
@@ -71,28 +73,63 @@ pub struct ImageFile {
 }
 
 impl ImageFile {
-    /// Reads and decodes a file.
+    /// Reads and decodes a file, and the files beside it that a header may name; or a folder with the
+    /// slices of a DICOM series, in order of their positions.
     ///
     /// # Errors
     /// The file cannot be read, or is neither a picture nor a volume.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
-        Self::from_bytes(&read_bytes(path.as_ref())?, path)
+        Self::read_component(path, None)
     }
 
-    /// [`read`](Self::read) of a file whose content is `bytes`; `name` stands in messages.
+    /// [`read`](Self::read), with a choice, from 0 on, among several values of a cell or several
+    /// frames: one picture or volume of many. Medical formats have them.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); there is no such component, or several and none is chosen.
+    pub fn read_component(
+        path: impl AsRef<Path>,
+        component: Option<usize>,
+    ) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        let wanted = Wanted { folder: path.parent(), component };
+        if path.is_dir() {
+            return Ok(Self { raster: decode_folder(path, wanted)?, path: path.to_owned() });
+        }
+        Self::decode(&read_bytes(path)?, path, wanted)
+    }
+
+    /// [`read`](Self::read) of a file whose content is `bytes`; `name` stands in messages. There are
+    /// no files beside it.
     ///
     /// # Errors
     /// As [`read`](Self::read).
     pub fn from_bytes(bytes: &[u8], name: impl AsRef<Path>) -> Result<Self, ReadError> {
-        let path = name.as_ref().to_owned();
-        Ok(Self { raster: decode(bytes, &path)?, path })
+        Self::decode(bytes, name.as_ref(), Wanted::default())
+    }
+
+    fn decode(bytes: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<Self, ReadError> {
+        Ok(Self { raster: decode(bytes, path, wanted)?, path: path.to_owned() })
+    }
+
+    /// The distance between neighbouring cell centres along each axis, if the file says so.
+    #[must_use]
+    pub fn spacing<const D: usize>(&self) -> Option<[f64; D]> {
+        let spacing = self.raster.geometry?.spacing;
+        Some(std::array::from_fn(|axis| spacing.get(axis).copied().unwrap_or(1.0)))
+    }
+
+    /// Where the grid lies in the world, if the file says so.
+    #[must_use]
+    pub fn placement(&self) -> Option<Placement> {
+        Some(self.raster.geometry?.placement)
     }
 
     /// The dimensions in which the file can be read, the likelier one first: 2 for a picture, 3 for
     /// a volume.
     ///
     /// Both for an array of three axes whose last one has 1, 3 or 4 entries: they can be colours or
-    /// columns.
+    /// columns. Both for a picture in a medical format, which can be a slice, and for one slice.
     #[must_use]
     pub fn dimensions(&self) -> &'static [usize] {
         self.raster.dimensions()
@@ -127,12 +164,15 @@ impl ImageFile {
     ///
     /// # Errors
     /// The file has another dimension or is in colour; the spacing is not positive and finite.
-    pub fn into_field<const D: usize>(self, spacing: [f64; D]) -> Result<Grid<f64, D>, ReadError> {
+    pub fn into_field<const D: usize>(
+        self,
+        spacing: impl Into<Option<[f64; D]>>,
+    ) -> Result<Grid<f64, D>, ReadError> {
         let file = self.in_dimension(D)?;
         if file.raster.colours() > 1 {
             return Err(ReadError::Colour { path: file.path, channels: file.raster.channels });
         }
-        file.grid(grey(&file.raster, Channel::default()), spacing)
+        file.grid(grey(&file.raster, Channel::default()), spacing.into())
     }
 
     /// Whether the file can be read as a field of tensors on a picture (`dimension` 2) or volume (3).
@@ -151,14 +191,15 @@ impl ImageFile {
     /// The file has no tensors on that many axes; the spacing is not positive and finite.
     pub fn into_tensors<const D: usize>(
         self,
-        spacing: [f64; D],
+        spacing: impl Into<Option<[f64; D]>>,
     ) -> Result<TensorField<D>, ReadError> {
         if !self.has_tensors(D) {
             return Err(ReadError::NoTensors { path: self.path, dimension: D });
         }
         let samples = &self.raster.samples;
         let components = samples.values(0..samples.len());
-        TensorField::from_components(self.shape(spacing)?, components).map_err(|e| self.broken(&e))
+        TensorField::from_components(self.shape(spacing.into())?, components)
+            .map_err(|e| self.broken(&e))
     }
 
     /// The mask: pixels that are zero (in a colour picture: black) are walls, all others are open.
@@ -167,12 +208,15 @@ impl ImageFile {
     /// # Errors
     /// The file has another dimension, or pixels that are not a number; the spacing is not positive
     /// and finite.
-    pub fn into_mask<const D: usize>(self, spacing: [f64; D]) -> Result<Mask<D>, ReadError> {
+    pub fn into_mask<const D: usize>(
+        self,
+        spacing: impl Into<Option<[f64; D]>>,
+    ) -> Result<Mask<D>, ReadError> {
         let file = self.in_dimension(D)?;
         let brightest = (0..file.raster.colours())
             .map(|channel| plane(&file.raster, channel))
             .reduce(|a, b| a.iter().zip(&b).map(|(a, b)| larger_magnitude(*a, *b)).collect());
-        let values = file.grid(brightest.unwrap_or_default(), spacing)?;
+        let values = file.grid(brightest.unwrap_or_default(), spacing.into())?;
         refuse(&values, f64::is_nan, &file.path)?;
         Ok(Mask::new(values.map(|&value| value != 0.0)))
     }
@@ -191,12 +235,13 @@ impl ImageFile {
     fn grid<const D: usize>(
         &self,
         values: Vec<f64>,
-        spacing: [f64; D],
+        spacing: Option<[f64; D]>,
     ) -> Result<Grid<f64, D>, ReadError> {
         Grid::from_values(self.shape(spacing)?, values).map_err(|error| self.broken(&error))
     }
 
-    fn shape<const D: usize>(&self, spacing: [f64; D]) -> Result<Shape<D>, ReadError> {
+    fn shape<const D: usize>(&self, spacing: Option<[f64; D]>) -> Result<Shape<D>, ReadError> {
+        let spacing = spacing.or_else(|| self.spacing()).unwrap_or([1.0; D]);
         let size = std::array::from_fn(|axis| self.raster.size[axis]);
         Shape::with_spacing(size, spacing)
             .map_err(|source| ReadError::Grid { path: self.path.clone(), source })
@@ -228,7 +273,7 @@ pub fn read_picture<const D: usize>(
 /// As [`ImageFile::read`] and [`ImageFile::into_field`].
 pub fn read_field<const D: usize>(
     path: impl AsRef<Path>,
-    spacing: [f64; D],
+    spacing: impl Into<Option<[f64; D]>>,
 ) -> Result<Grid<f64, D>, ReadError> {
     ImageFile::read(path)?.into_field(spacing)
 }
@@ -239,7 +284,7 @@ pub fn read_field<const D: usize>(
 /// As [`ImageFile::read`] and [`ImageFile::into_tensors`].
 pub fn read_tensors<const D: usize>(
     path: impl AsRef<Path>,
-    spacing: [f64; D],
+    spacing: impl Into<Option<[f64; D]>>,
 ) -> Result<TensorField<D>, ReadError> {
     ImageFile::read(path)?.into_tensors(spacing)
 }
@@ -250,14 +295,19 @@ pub fn read_tensors<const D: usize>(
 /// As [`ImageFile::read`] and [`ImageFile::into_mask`].
 pub fn read_mask<const D: usize>(
     path: impl AsRef<Path>,
-    spacing: [f64; D],
+    spacing: impl Into<Option<[f64; D]>>,
 ) -> Result<Mask<D>, ReadError> {
     ImageFile::read(path)?.into_mask(spacing)
 }
 
 /// The file's bytes.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
-    std::fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })
+    let open = |source| ReadError::Open { path: path.to_owned(), source };
+    let about = std::fs::metadata(path).map_err(open)?;
+    if about.is_file() {
+        memory::check(path, about.len())?;
+    }
+    std::fs::read(path).map_err(open)
 }
 
 /// One channel of the picture.

@@ -1,9 +1,9 @@
 //! Curves from files: JSON, CSV and SWC.
 
-use crate::ReadError;
 use crate::picture::read_bytes;
 use crate::points::{AXES, Trouble, excerpt, number};
 use crate::swc;
+use crate::{Placement, ReadError};
 use csv::ReaderBuilder;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -61,26 +61,33 @@ impl CurveFile {
         self.dimensions
     }
 
-    /// The curves in pixel coordinates of a grid with the given spacing.
+    /// The curves in pixel coordinates of a grid with the given spacing, for SWC also at the given
+    /// place; without one the first cell is at 0.
     ///
     /// # Errors
-    /// They have another dimension.
+    /// They have another dimension, or lie outside of a picture's plane.
     pub fn into_polylines<const D: usize>(
         self,
         spacing: [f64; D],
+        placement: Option<Placement>,
     ) -> Result<Vec<Vec<[f64; D]>>, ReadError> {
+        let trouble = |reason: String| {
+            let (path, place) = (self.path.clone(), "the file".to_owned());
+            ReadError::Points { path, place, reason }
+        };
         if !self.dimensions.contains(&D) {
             let words = |d: usize| if d == 2 { "a picture" } else { "a volume" };
-            let reason = format!("lies in {}, not in {}", words(self.dimensions[0]), words(D));
-            return Err(ReadError::Points {
-                path: self.path,
-                place: "the file".to_owned(),
-                reason,
-            });
+            let [found, needed] = [self.dimensions[0], D].map(words);
+            return Err(trouble(format!("lies in {found}, not in {needed}")));
         }
-        let unit = if self.is_physical { spacing } else { [1.0; D] };
-        let point = |point: &[f64; 3]| std::array::from_fn(|axis| point[axis] / unit[axis]);
-        Ok(self.curves.iter().map(|curve| curve.iter().map(point).collect()).collect())
+        let placement = placement.unwrap_or_default();
+        let point = |point: &[f64; 3]| {
+            let point = std::array::from_fn(|axis| point[axis]);
+            if self.is_physical { placement.to_pixels(point, spacing) } else { Some(point) }
+        };
+        let curve = |curve: &Vec<[f64; 3]>| curve.iter().map(point).collect::<Option<Vec<_>>>();
+        let curves: Option<Vec<_>> = self.curves.iter().map(curve).collect();
+        curves.ok_or_else(|| trouble("lies outside of the picture's plane".to_owned()))
     }
 }
 

@@ -52,6 +52,26 @@ impl SampleType {
             Self::F64 => "float64",
         }
     }
+
+    /// The bytes of one sample.
+    pub(crate) fn bytes(self) -> usize {
+        match self {
+            Self::Bool | Self::U8 | Self::I8 => 1,
+            Self::U16 | Self::I16 | Self::F16 => 2,
+            Self::U32 | Self::I32 | Self::F32 => 4,
+            Self::U64 | Self::I64 | Self::F64 => 8,
+        }
+    }
+
+    /// The largest value of small unsigned types.
+    pub(crate) fn white(self) -> Option<f64> {
+        match self {
+            Self::Bool => Some(1.0),
+            Self::U8 => Some(f64::from(u8::MAX)),
+            Self::U16 => Some(f64::from(u16::MAX)),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for SampleType {

@@ -1,7 +1,8 @@
 //! Trees as SWC: one line a point, `id type x y z radius parent`, ids from 1, parent -1 at a root.
 
+use crate::placement::World;
 use crate::points::{Trouble, excerpt};
-use crate::vtp::{known, physical};
+use crate::vtp::known;
 use heatpath_core::grid::skeleton::{Branch, Graph};
 use std::collections::{HashMap, VecDeque};
 use std::io::{self, Write};
@@ -9,20 +10,20 @@ use std::io::{self, Write};
 /// Writes points with the ids of their parents.
 struct Writer<'a, const D: usize> {
     out: &'a mut dyn Write,
-    spacing: [f64; D],
+    world: World<D>,
     last: usize,
 }
 
 impl<'a, const D: usize> Writer<'a, D> {
-    fn new(out: &'a mut dyn Write, spacing: [f64; D]) -> io::Result<Self> {
+    fn new(out: &'a mut dyn Write, world: World<D>) -> io::Result<Self> {
         writeln!(out, "# id type x y z radius parent, in physical units")?;
-        Ok(Self { out, spacing, last: 0 })
+        Ok(Self { out, world, last: 0 })
     }
 
     /// Writes a point; its id.
     fn point(&mut self, point: [f64; D], radius: f64, parent: Option<usize>) -> io::Result<usize> {
         self.last += 1;
-        let ([x, y, z], radius) = (physical(point, self.spacing), known(radius));
+        let ([x, y, z], radius) = (self.world.point(point), known(radius));
         let parent = parent.map_or("-1".to_owned(), |parent| parent.to_string());
         writeln!(self.out, "{} 0 {x} {y} {z} {radius} {parent}", self.last)?;
         Ok(self.last)
@@ -33,9 +34,9 @@ impl<'a, const D: usize> Writer<'a, D> {
 pub(crate) fn write_paths<'a, const D: usize>(
     out: &mut dyn Write,
     paths: impl Iterator<Item = &'a [[f64; D]]>,
-    spacing: [f64; D],
+    world: World<D>,
 ) -> io::Result<()> {
-    let mut writer = Writer::new(out, spacing)?;
+    let mut writer = Writer::new(out, world)?;
     for points in paths {
         let mut parent = None;
         for &point in points.iter().rev() {
@@ -50,6 +51,7 @@ pub(crate) fn write_graph<const D: usize>(
     out: &mut dyn Write,
     graph: &Graph<D>,
     seeds: &[[f64; D]],
+    world: World<D>,
 ) -> io::Result<()> {
     let distance = |node: usize| {
         let to = |&seed: &[f64; D]| graph.shape.physical_distance(seed, graph.nodes[node].point);
@@ -66,7 +68,7 @@ pub(crate) fn write_graph<const D: usize>(
         graph,
         ids: vec![None; graph.nodes.len()],
         written: vec![false; graph.branches.len()],
-        writer: Writer::new(out, graph.shape.spacing())?,
+        writer: Writer::new(out, world)?,
     };
     for root in order {
         if tree.ids[root].is_none() {

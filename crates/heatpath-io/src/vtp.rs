@@ -1,17 +1,18 @@
 //! Polylines for VTK.
 
+use crate::placement::World;
 use std::io::{self, Write};
 
 /// Values of polylines by name, one each.
 pub(crate) type LineArray = (&'static str, Vec<f64>);
 
 /// Writes polylines, given in pixel coordinates with a radius for each point or none at all, as VTK
-/// XML poly data in text, in physical units; `arrays` must be finite, as text has no word for other
+/// XML poly data in text, in the `world`; `arrays` must be finite, as text has no word for other
 /// values that all versions of VTK read.
 pub(crate) fn write<const D: usize>(
     out: &mut dyn Write,
     lines: &[(&[[f64; D]], &[f64])],
-    spacing: [f64; D],
+    world: World<D>,
     arrays: &[LineArray],
 ) -> io::Result<()> {
     let points: usize = lines.iter().map(|(points, _)| points.len()).sum();
@@ -35,7 +36,7 @@ pub(crate) fn write<const D: usize>(
     }
     writeln!(out, "<Points>")?;
     let coordinates = lines.iter().flat_map(|(points, _)| points.iter());
-    array(out, "Float64", "points", 3, coordinates.flat_map(|&point| physical(point, spacing)))?;
+    array(out, "Float64", "points", 3, coordinates.flat_map(|&point| world.point(point)))?;
     writeln!(out, "</Points><Lines>")?;
     array(out, "Int64", "connectivity", 1, 0..points)?;
     let ends = lines.iter().scan(0, |end, (points, _)| {
@@ -59,11 +60,6 @@ fn array(
         write!(out, "{value} ")?;
     }
     writeln!(out, "\n</DataArray>")
-}
-
-/// A point in the world, in which pictures lie at z = 0.
-pub(crate) fn physical<const D: usize>(point: [f64; D], spacing: [f64; D]) -> [f64; 3] {
-    std::array::from_fn(|axis| if axis < D { point[axis] * spacing[axis] } else { 0.0 })
 }
 
 /// A radius, or 0 where it is not known.

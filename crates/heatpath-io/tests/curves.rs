@@ -20,6 +20,7 @@ fn path(points: &[[f64; 2]], ending: Ending, distance: f64) -> Path<2> {
 fn some_curves() -> Curves<2> {
     Curves {
         spacing: [2.0, 2.0],
+        placement: None,
         paths: vec![
             path(&[[3.0, 4.0], [0.1, 1.0 / 3.0], [0.0, 0.0]], Ending::Source(1), 7.5),
             path(&[[9.0, -0.5]], Ending::Unreachable, f64::INFINITY),
@@ -70,8 +71,12 @@ fn json_knows_volumes() {
         physical_length: 0.0,
         distance: 0.0,
     };
-    let value =
-        curves_json(&Curves { spacing: [1.0; 3], paths: vec![path], key_points: Vec::new() });
+    let value = curves_json(&Curves {
+        spacing: [1.0; 3],
+        placement: None,
+        paths: vec![path],
+        key_points: Vec::new(),
+    });
     assert_eq!(
         (&value["dimension"], &value["paths"][0]["end"]),
         (&json!(3), &json!([1.0, 2.0, 3.0]))
@@ -89,7 +94,12 @@ fn volumes_have_a_column_more_and_no_drawing() {
         distance: 0.0,
     };
     let points = path.points.clone();
-    let curves = Curves { spacing: [1.0, 1.0, 2.5], paths: vec![path], key_points: Vec::new() };
+    let curves = Curves {
+        spacing: [1.0, 1.0, 2.5],
+        placement: None,
+        paths: vec![path],
+        key_points: Vec::new(),
+    };
     let shape = Shape::with_spacing([4, 4, 4], curves.spacing).unwrap();
     let file = folder.path().join("a.csv");
     write_curves(&file, None, false, &curves, &shape).unwrap();
@@ -220,7 +230,7 @@ proptest! {
     fn coordinates_survive_csv_and_json(
         points in prop::collection::vec([coordinate(), coordinate()], 1..20)
     ) {
-        let curves = Curves { spacing: [1.0; 2], paths: vec![path(&points, Ending::Source(0), 1.0)], key_points: Vec::new() };
+        let curves = Curves { spacing: [1.0; 2], placement: None, paths: vec![path(&points, Ending::Source(0), 1.0)], key_points: Vec::new() };
         let csv = written("a.csv", &curves);
         prop_assert_eq!(&read_points_from_bytes(csv.as_bytes(), "a.csv").unwrap(), &points);
         let json = serde_json::to_string(&json!({ "points": points })).unwrap();

@@ -25,8 +25,14 @@ fn path(points: &[[f64; 2]], ending: Ending) -> Path<2> {
 fn drawn_field(field: &Grid<f64, 2>, title: Option<&str>) -> RgbImage {
     let folder = tempdir().unwrap();
     let file = folder.path().join("field.png");
-    write_field(&file, None, false, field, &FieldStyle { title: title.map(str::to_owned) })
-        .unwrap();
+    write_field(
+        &file,
+        None,
+        false,
+        field,
+        &FieldStyle { title: title.map(str::to_owned), ..FieldStyle::default() },
+    )
+    .unwrap();
     image::open(file).unwrap().into_rgb8()
 }
 

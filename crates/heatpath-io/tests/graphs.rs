@@ -13,12 +13,12 @@ use tempfile::tempdir;
 fn written<const D: usize>(ending: &str, graph: &Graph<D>, seeds: &[[f64; D]]) -> String {
     let folder = tempdir().unwrap();
     let file = folder.path().join(format!("graph.{ending}"));
-    write_graph(&file, None, false, graph, seeds).unwrap();
+    write_graph(&file, None, false, graph, seeds, None).unwrap();
     fs::read_to_string(file).unwrap()
 }
 
 fn read<const D: usize>(text: &str, spacing: [f64; D]) -> Vec<Vec<[f64; D]>> {
-    CurveFile::from_bytes(text.as_bytes(), "graph").unwrap().into_polylines(spacing).unwrap()
+    CurveFile::from_bytes(text.as_bytes(), "graph").unwrap().into_polylines(spacing, None).unwrap()
 }
 
 /// A closed square with a tail, and a line apart.
@@ -40,7 +40,7 @@ fn json_and_csv_have_the_documented_layout() {
     assert_eq!((graph.nodes.len(), graph.branches.len()), (4, 3));
     let text = written("json", &graph, &[]);
     let value: Value = serde_json::from_str(&text).unwrap();
-    let again: Value = serde_json::from_str(&graph_json(&graph, &[]).to_string()).unwrap();
+    let again: Value = serde_json::from_str(&graph_json(&graph, &[], None).to_string()).unwrap();
     assert_eq!(value, again);
     assert!(text.starts_with("{\"version\":1,\"dimension\":2,\"spacing\":[0.5,2.0],\"nodes\":[{"));
     for (entry, branch) in value["paths"].as_array().unwrap().iter().zip(&graph.branches) {
@@ -51,7 +51,7 @@ fn json_and_csv_have_the_documented_layout() {
     }
     assert!(value["paths"].as_array().unwrap().iter().all(|path| path["ended"] == "unreachable"));
     let seeds = [graph.nodes[0].point];
-    let value = graph_json(&graph, &seeds);
+    let value = graph_json(&graph, &seeds, None);
     let piece = |number: &Value| number.as_u64().map(|number| number as usize);
     for path in value["paths"].as_array().unwrap() {
         let is_first = piece(&path["from"]) == Some(0) || piece(&path["to"]) == Some(0);
@@ -127,7 +127,7 @@ fn swc_is_read_branch_by_branch() {
     let file = |text: &str| CurveFile::from_bytes(text.as_bytes(), "a.swc").unwrap();
     assert_eq!(file(text).dimensions(), [3]);
     assert_eq!(file("1 0 1 2 0 1 -1\n").dimensions(), [2, 3]);
-    let error = file(text).into_polylines([1.0; 2]).unwrap_err().to_string();
+    let error = file(text).into_polylines([1.0; 2], None).unwrap_err().to_string();
     assert!(error.contains("lies in a volume, not in a picture"), "{error}");
 }
 
@@ -162,9 +162,9 @@ proptest! {
             Ok(file) => {
                 let dimension = file.dimensions()[0];
                 let finite = if dimension == 2 {
-                    file.into_polylines([1.0; 2]).unwrap().iter().flatten().flatten().all(|x| x.is_finite())
+                    file.into_polylines([1.0; 2], None).unwrap().iter().flatten().flatten().all(|x| x.is_finite())
                 } else {
-                    file.into_polylines([1.0; 3]).unwrap().iter().flatten().flatten().all(|x| x.is_finite())
+                    file.into_polylines([1.0; 3], None).unwrap().iter().flatten().flatten().all(|x| x.is_finite())
                 };
                 prop_assert!(finite);
             }

@@ -63,6 +63,7 @@ fn unknown_content_is_named() {
         let error = error(junk);
         assert!(matches!(error, ReadError::Unrecognised { .. }), "{error}");
         assert!(error.to_string().contains("PNG, JPEG, TIFF, PNM"));
+        assert!(error.to_string().contains("NIfTI, NRRD, MetaImage and DICOM"));
     }
 }
 
@@ -172,14 +173,15 @@ fn arrays_with_odd_headers_are_refused() {
 fn what_the_system_refuses_is_an_access_error() {
     let missing = info("no/such/file.png").unwrap_err();
     assert!(missing.is_access() && missing.to_string().starts_with("no/such/file.png: "));
-    assert!(info(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err().is_access());
+    let folder = info(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err();
+    assert!(!folder.is_access() && folder.to_string().contains("no pictures of DICOM"), "{folder}");
 }
 
 #[test]
 fn impossible_spacings_are_refused() {
     let bytes = npy("'|u1'", false, "(1, 1)", &[1]);
     for spacing in [[0.0, 1.0], [1.0, -1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]] {
-        let options = PictureOptions { spacing, ..Default::default() };
+        let options = PictureOptions { spacing: Some(spacing), ..Default::default() };
         let error = common::picture(&bytes, "a.npy", &options).unwrap_err();
         assert!(matches!(error, ReadError::Grid { .. }));
     }

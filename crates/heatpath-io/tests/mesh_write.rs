@@ -131,7 +131,7 @@ fn paths_are_curves_in_space() {
     for ending in ["json", "csv"] {
         let path = folder.path().join(format!("paths.{ending}"));
         write_mesh_paths(&path, None, false, &paths).unwrap();
-        let curves = CurveFile::read(&path).unwrap().into_polylines([1.0; 3]).unwrap();
+        let curves = CurveFile::read(&path).unwrap().into_polylines([1.0; 3], None).unwrap();
         assert_eq!(curves, [paths[0].positions.clone(), paths[1].positions.clone()], "{ending}");
     }
     let json = curves_json(&mesh_curves(&paths));

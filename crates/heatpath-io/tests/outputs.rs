@@ -4,8 +4,8 @@
 
 use heatpath_core::grid::{Grid, Shape};
 use heatpath_io::{
-    FieldFormat, FieldStyle, Overlay, WriteError, check_dimension, check_output, info, read_field,
-    read_mask, write_atomically, write_field, write_mask, write_overlay,
+    FieldFormat, FieldStyle, WriteError, check_dimension, check_output, info, read_field,
+    read_mask, remove_leftovers, write_atomically, write_field, write_mask,
 };
 use std::fs;
 use std::io::{self, Write};
@@ -152,12 +152,18 @@ fn fields_come_back() {
     let error = write_field(at("a.npy"), None, false, &field, &FieldStyle::default()).unwrap_err();
     assert!(matches!(error, WriteError::Exists { .. }));
     let error = write_field(at("a.bmp"), None, false, &field, &FieldStyle::default()).unwrap_err();
-    assert!(error.to_string().ends_with("accepted are .npy, .tif, .tiff, .png"));
+    assert!(
+        error
+            .to_string()
+            .ends_with(".npy, .tif, .tiff, .png, .nrrd, .nhdr, .mha, .mhd, .nii, .nii.gz")
+    );
     assert_eq!(FieldFormat::new("x.y.PNG", None).unwrap(), FieldFormat::Png);
+    assert_eq!(FieldFormat::new("x.NII.gz", None).unwrap(), FieldFormat::NiftiGz);
+    assert!(FieldFormat::new("x.gz", None).is_err());
 }
 
 #[test]
-fn volumes_are_not_drawn() {
+fn fields_of_volumes_are_no_pictures() {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let volume = Grid::from_fn(Shape::new([3, 2, 2]).unwrap(), |[x, y, z]| (x + y + z) as f64);
@@ -168,8 +174,6 @@ fn volumes_are_not_drawn() {
         assert!(check_dimension(at(name), format, 3).is_err());
         assert!(check_dimension(at(name), format, 2).is_ok());
     }
-    let error = write_overlay(at("a.png"), false, &volume, &Overlay::default()).unwrap_err();
-    assert!(matches!(error, WriteError::Volume { .. }), "{error}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
@@ -179,16 +183,48 @@ fn masks_come_back_in_every_format() {
     let picture = Grid::from_fn(Shape::new([7, 5]).unwrap(), |[x, y]| x > 2 * y);
     for ending in ["png", "npy", "tif"] {
         let path = folder.path().join(format!("mask.{ending}"));
-        write_mask(&path, None, false, &picture).unwrap();
+        write_mask(&path, None, false, &picture, None).unwrap();
         assert_eq!(read_mask(&path, [1.0; 2]).unwrap().open(), &picture, "{ending}");
-        assert!(write_mask(&path, None, false, &picture).is_err(), "it exists");
+        assert!(write_mask(&path, None, false, &picture, None).is_err(), "it exists");
     }
     let pixels = image::open(folder.path().join("mask.png")).unwrap().into_luma8();
     assert_eq!((pixels.get_pixel(1, 0).0, pixels.get_pixel(0, 0).0), ([255], [0]));
     let volume = Grid::from_fn(Shape::new([4, 3, 2]).unwrap(), |[x, _, z]| x > z);
     let path = folder.path().join("volume.tif");
-    write_mask(&path, None, false, &volume).unwrap();
+    write_mask(&path, None, false, &volume, None).unwrap();
     assert_eq!(read_mask(&path, [1.0; 3]).unwrap().open(), &volume);
     let png = folder.path().join("volume.png");
-    assert!(matches!(write_mask(png, None, false, &volume), Err(WriteError::Volume { .. })));
+    assert!(matches!(write_mask(png, None, false, &volume, None), Err(WriteError::Volume { .. })));
+}
+
+/// What a killed process leaves goes, of this output alone; names may be as long as they can be.
+#[test]
+fn leftovers_of_killed_processes_go() {
+    let folder = tempdir().unwrap();
+    let long = format!("{}.json", "\u{e9}".repeat(120));
+    for name in ["a.json", &long] {
+        let file = folder.path().join(name);
+        write_atomically(&file, false, |out| {
+            // What is killed now leaves this.
+            let is_new = |path: &Path| {
+                let name = path.to_string_lossy();
+                name.ends_with(".part") && !name.ends_with("-killed.part")
+            };
+            let parts = fs::read_dir(folder.path())?.flatten().map(|entry| entry.path());
+            for part in parts.filter(|path| is_new(path)) {
+                fs::copy(&part, part.to_string_lossy().replace(".part", "-killed.part"))?;
+            }
+            out.write_all(b"{}")
+        })
+        .unwrap();
+    }
+    let count = || fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(count(), 4);
+    remove_leftovers(folder.path().join("a.json")).unwrap();
+    assert_eq!(count(), 3);
+    remove_leftovers(folder.path().join("b.json")).unwrap();
+    assert_eq!(count(), 3);
+    remove_leftovers(folder.path().join(&long)).unwrap();
+    assert_eq!(count(), 2);
+    remove_leftovers(folder.path().join("missing/a.json")).unwrap();
 }

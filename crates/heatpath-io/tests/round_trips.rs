@@ -114,7 +114,7 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_panic(start in 0..19_usize, cut in 0..400_usize, tail in prop::collection::vec(any::<u8>(), 0..80)) {
+    fn no_bytes_panic(start in 0..common::zoo().len(), cut in 0..400_usize, tail in prop::collection::vec(any::<u8>(), 0..80)) {
         let (name, mut bytes) = common::zoo().swap_remove(start);
         bytes.truncate(cut);
         bytes.extend(tail);

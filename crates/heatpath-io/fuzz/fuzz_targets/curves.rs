@@ -9,8 +9,8 @@ fuzz_target!(|bytes: &[u8]| match CurveFile::from_bytes(bytes, "fuzz") {
     Ok(file) => {
         for &dimension in file.dimensions() {
             match dimension {
-                2 => check(&file.clone().into_polylines([1.0; 2]).unwrap()),
-                _ => check(&file.clone().into_polylines([1.0; 3]).unwrap()),
+                2 => check(&file.clone().into_polylines([1.0; 2], None).unwrap()),
+                _ => check(&file.clone().into_polylines([1.0; 3], None).unwrap()),
             }
         }
     }

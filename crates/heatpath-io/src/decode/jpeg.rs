@@ -32,6 +32,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         white: Some(255.0),
         pages: 1,
         channel_axis: false,
+        geometry: None,
     })
 }
 

@@ -1,5 +1,6 @@
 //! From a file's bytes to its samples: one file per format, all with the same result.
 
+mod dicom;
 mod jpeg;
 mod npy;
 mod npy_header;
@@ -7,14 +8,18 @@ mod palette;
 mod png;
 mod pnm;
 mod tiff;
+mod volume;
 
 use crate::ReadError;
 use crate::error::pixels;
+use crate::memory;
+use crate::picture::read_bytes;
+use crate::placement::Geometry;
 use crate::sample::{SampleType, Samples};
 use image::{ColorType, ImageDecoder};
 use serde::Serialize;
 use std::fmt;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// The largest accepted number of pixels, in a volume over all slices.
 const MOST_PIXELS: u64 = 1 << 30;
@@ -34,6 +39,14 @@ pub enum Format {
     Pnm,
     /// An array written by numpy.
     Npy,
+    /// NRRD, of `Teem` and 3D Slicer; its data in the file or beside it.
+    Nrrd,
+    /// `MetaImage`, of ITK; its data in the file or beside it.
+    MetaImage,
+    /// `NIfTI`-1 and `NIfTI`-2 in one file, plain or gzipped.
+    Nifti,
+    /// DICOM: a file, or the slices of a series in a folder.
+    Dicom,
 }
 
 impl Format {
@@ -41,11 +54,16 @@ impl Format {
     #[must_use]
     pub fn recognise(bytes: &[u8]) -> Option<Self> {
         match bytes {
+            // The preamble before the mark can be the beginning of a TIFF.
+            _ if dicom::is_dicom(bytes) => Some(Self::Dicom),
             [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(Self::Png),
             [0xff, 0xd8, 0xff, ..] => Some(Self::Jpeg),
             [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => Some(Self::Tiff),
             [b'P', b'1'..=b'6', b' ' | b'\t'..=b'\r' | b'#', ..] => Some(Self::Pnm),
             [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Some(Self::Npy),
+            [b'N', b'R', b'R', b'D', b'0', b'0', b'0', b'1'..=b'5', ..] => Some(Self::Nrrd),
+            _ if volume::meta_image::is_meta_image(bytes) => Some(Self::MetaImage),
+            _ if volume::nifti::is_nifti(bytes) => Some(Self::Nifti),
             _ => None,
         }
     }
@@ -59,6 +77,10 @@ impl fmt::Display for Format {
             Self::Tiff => "TIFF",
             Self::Pnm => "PNM",
             Self::Npy => "NPY",
+            Self::Nrrd => "NRRD",
+            Self::MetaImage => "MetaImage",
+            Self::Nifti => "NIfTI",
+            Self::Dicom => "DICOM",
         })
     }
 }
@@ -80,14 +102,17 @@ pub(crate) struct Raster {
     pub(crate) pages: usize,
     /// Whether the file has an axis of channels, which could be that of columns as well.
     pub(crate) channel_axis: bool,
+    /// Where it lies in the world, in formats that say so.
+    pub(crate) geometry: Option<Geometry>,
 }
 
 impl Raster {
     /// The dimensions in which it can be read, the likelier one first.
     pub(crate) fn dimensions(&self) -> &'static [usize] {
         match self.size.len() {
-            2 if self.channel_axis => &[2, 3],
+            2 if self.channel_axis || self.geometry.is_some() => &[2, 3],
             2 => &[2],
+            _ if self.size[2] == 1 => &[3, 2],
             _ => &[3],
         }
     }
@@ -97,8 +122,12 @@ impl Raster {
         if !self.dimensions().contains(&dimension) {
             return None;
         }
-        if self.size.len() < dimension {
-            self.size.insert(0, std::mem::replace(&mut self.channels, 1));
+        match self.size.len() {
+            2 if dimension == 3 && self.channel_axis => {
+                self.size.insert(0, std::mem::replace(&mut self.channels, 1));
+            }
+            2 if dimension == 3 => self.size.push(1),
+            _ => self.size.truncate(dimension),
         }
         Some(self)
     }
@@ -119,16 +148,32 @@ impl Raster {
     }
 }
 
+/// Where bytes come from, and what is wanted of them.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Wanted<'a> {
+    /// The folder of further files that belong to this one; none if there are only the bytes.
+    pub(crate) folder: Option<&'a Path>,
+    /// Which one of several values a cell, or of several frames; none if there must be one.
+    pub(crate) component: Option<usize>,
+}
+
 /// Decodes the first picture, or the volume, of a file whose content is `bytes`; `path` is for
 /// messages.
-pub(crate) fn decode(bytes: &[u8], path: &Path) -> Result<Raster, ReadError> {
+pub(crate) fn decode(bytes: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<Raster, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty { path: path.to_owned() });
     }
     let format = Format::recognise(bytes)
         .ok_or_else(|| ReadError::Unrecognised { path: path.to_owned() })?;
-    let input = Input { bytes, path, format };
+    let input = Input { bytes, path, format, wanted };
     match format {
+        Format::Nrrd => volume::nrrd::decode(&input),
+        Format::MetaImage => volume::meta_image::decode(&input),
+        Format::Nifti => volume::nifti::decode(&input),
+        Format::Dicom => dicom::decode(&input),
+        _ if wanted.component.is_some_and(|component| component > 0) => {
+            Err(ReadError::Component { path: path.to_owned(), count: 1 })
+        }
         Format::Png => png::decode(&input),
         Format::Jpeg => jpeg::decode(&input),
         Format::Tiff => tiff::decode(&input),
@@ -137,9 +182,12 @@ pub(crate) fn decode(bytes: &[u8], path: &Path) -> Result<Raster, ReadError> {
     }
 }
 
+/// Decodes the DICOM files of a folder as one volume.
+pub(crate) use dicom::decode_folder;
+
 /// The numbers of an NPY array with one axis.
 pub(crate) fn decode_vector(bytes: &[u8], path: &Path) -> Result<Vec<f64>, ReadError> {
-    npy::vector(&Input { bytes, path, format: Format::Npy })
+    npy::vector(&Input { bytes, path, format: Format::Npy, wanted: Wanted::default() })
 }
 
 /// What a decoder is given, and the errors it may return.
@@ -147,9 +195,26 @@ struct Input<'a> {
     bytes: &'a [u8],
     path: &'a Path,
     format: Format,
+    wanted: Wanted<'a>,
 }
 
 impl Input<'_> {
+    /// The content of a file in the same folder or below it.
+    fn beside(&self, name: &str) -> Result<Vec<u8>, ReadError> {
+        let name = Path::new(name);
+        let is_below = name.components().all(|part| matches!(part, Component::Normal(_)));
+        if !is_below || name.as_os_str().is_empty() {
+            let name = name.display();
+            return Err(self.broken(format!(
+                "its data lie in {name}; a name in the folder of the header is accepted"
+            )));
+        }
+        match self.wanted.folder {
+            Some(folder) => read_bytes(&folder.join(name)),
+            None => Err(self.broken(format!("its data lie in the file {}", name.display()))),
+        }
+    }
+
     fn broken(&self, reason: impl fmt::Display) -> ReadError {
         let reason = one_line(&reason.to_string());
         ReadError::Decode { path: self.path.to_owned(), format: self.format, reason }
@@ -170,6 +235,7 @@ impl Input<'_> {
         if product.is_none_or(|pixels| pixels > MOST_PIXELS) {
             return Err(ReadError::TooLarge { path, size: size.to_vec(), most: MOST_PIXELS });
         }
+        memory::check(self.path, product.unwrap_or(0).saturating_mul(size_of::<f64>() as u64))?;
         if least_bytes > bytes {
             return Err(ReadError::Truncated { path, size: size.to_vec(), bytes });
         }

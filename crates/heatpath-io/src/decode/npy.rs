@@ -26,9 +26,10 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         channels,
         sample,
         samples,
-        white: white(sample),
+        white: sample.white(),
         pages: 1,
         channel_axis,
+        geometry: None,
     })
 }
 
@@ -117,13 +118,4 @@ fn read(input: &Input<'_>, array: Array<'_>, sample: SampleType) -> Result<Sampl
 
 fn elements<T: Deserialize>(input: &Input<'_>, array: Array<'_>) -> Result<Vec<T>, ReadError> {
     array.into_vec().map_err(|e| input.broken(e))
-}
-
-fn white(sample: SampleType) -> Option<f64> {
-    match sample {
-        SampleType::Bool => Some(1.0),
-        SampleType::U8 => Some(255.0),
-        SampleType::U16 => Some(65535.0),
-        _ => None,
-    }
 }

@@ -41,6 +41,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         white: Some(white),
         pages: 1,
         channel_axis: false,
+        geometry: None,
     })
 }
 

@@ -31,6 +31,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         white,
         pages: 1,
         channel_axis: false,
+        geometry: None,
     })
 }
 

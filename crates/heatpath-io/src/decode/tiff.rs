@@ -54,7 +54,17 @@ fn decode_file(input: &Input<'_>, mut file: File<'_>) -> Result<Raster, ReadErro
     }
     let (format, white) = (input.format, white(sample, first.colour.bit_depth()));
     let pages = 1 + further.iter().filter(|page| page.is_ok()).count();
-    Ok(Raster { format, size, channels, sample, samples, white, pages, channel_axis: false })
+    Ok(Raster {
+        format,
+        size,
+        channels,
+        sample,
+        samples,
+        white,
+        pages,
+        channel_axis: false,
+        geometry: None,
+    })
 }
 
 /// A page before it is decoded.

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 #![allow(dead_code, reason = "each test program uses a part of this")]
 
+pub(crate) mod volumes;
+
 use heatpath_core::grid::{Grid, Mask};
 use heatpath_io::{ImageFile, Info, PictureOptions, ReadError};
 use image::{ExtendedColorType, ImageEncoder};
@@ -113,7 +115,7 @@ pub(crate) fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u
 pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
     let ramp: Vec<u8> = (0..60).map(|i| i * 4).collect();
     let floats = [0.0_f32, -1.5, 2.25, 1e9, 3.0, 4.0];
-    vec![
+    let mut zoo = vec![
         ("png l8", png(&ramp[..20], [5, 4], ExtendedColorType::L8)),
         ("png la8", png(&ramp[..40], [5, 4], ExtendedColorType::La8)),
         ("png rgb16", png(&ramp[..36], [3, 2], ExtendedColorType::Rgb16)),
@@ -140,5 +142,7 @@ pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
         ("npy", npy("'|u1'", false, "(2, 3)", &ramp[..6])),
         ("npy colour", npy("'<u2'", false, "(1, 2, 3)", &ramp[..12])),
         ("npy volume", npy("'<u2'", true, "(2, 3, 2)", &ramp[..24])),
-    ]
+    ];
+    zoo.extend(volumes::zoo());
+    zoo
 }

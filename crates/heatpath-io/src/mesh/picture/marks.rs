@@ -3,7 +3,7 @@
 use super::MeshPicture;
 use super::canvas::{Canvas, SAMPLES};
 use super::view::{Camera, Vector};
-use crate::overlay::{BLACK, CYAN, ORANGE, RED, SHADOW, WHITE};
+use crate::canvas::{BLACK, CYAN, ORANGE, RED, SHADOW, WHITE};
 use heatpath_core::mesh::path::{Ending, Path};
 
 pub(super) fn draw(canvas: &mut Canvas, camera: &Camera, picture: &MeshPicture<'_>) {

@@ -44,5 +44,10 @@ pub fn mesh_curves(paths: &[MeshPath]) -> Curves<3> {
         physical_length: path.length,
         distance: path.distance,
     };
-    Curves { spacing: [1.0; 3], paths: paths.iter().map(curve).collect(), key_points: Vec::new() }
+    Curves {
+        spacing: [1.0; 3],
+        placement: None,
+        paths: paths.iter().map(curve).collect(),
+        key_points: Vec::new(),
+    }
 }

@@ -1,0 +1,8 @@
+//! A command line module of 3D Slicer, see `heatpath_slicer`.
+
+use heatpath_slicer::modules::MESH_DISTANCE;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    heatpath_slicer::main(&MESH_DISTANCE)
+}

@@ -1,0 +1,62 @@
+//! heatpath as command line modules of 3D Slicer, and of everything else that runs such modules.
+//!
+//! A [`Module`] is a table of parameters. It is told to Slicer as XML, which makes a panel of it, and
+//! what Slicer then passes to the program becomes a command line of `heatpath`: the module *is* the
+//! command, in the same process, so that results are equal and nothing has to be found on the
+//! disk. [`modules`] has the tables; each program in `bin` runs one of them.
+//!
+//! The rules of the XML are those that Slicer, CTK, nipype and Girder agree on: the names of
+//! options are letters and digits, children have one order, and there are no scalar outputs.
+
+mod arguments;
+mod logo;
+mod module;
+pub mod modules;
+mod progress;
+mod xml;
+
+pub use arguments::{Request, command_line};
+pub use module::{Channel, FileKind, Group, Kind, Module, Parameter};
+pub use xml::description;
+
+use heatpath_cli::Failure;
+use heatpath_io::write_atomically;
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// The program of a module.
+#[must_use]
+pub fn main(module: &Module) -> ExitCode {
+    match run(module, std::env::args_os()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            // If standard error is closed there is nobody to tell.
+            drop(writeln!(io::stderr(), "{}: error: {failure}", module.name));
+            failure.code()
+        }
+    }
+}
+
+fn run(module: &Module, words: impl Iterator<Item = OsString>) -> Result<(), Failure> {
+    match command_line(module, words) {
+        Request::Xml => print(&description(module)),
+        Request::Logo => print(&logo::logo()),
+        Request::Run { words, return_parameters } => {
+            let finish = progress::begin(module.name);
+            heatpath_cli::heatpath(words)?;
+            // There are no scalar outputs, so there is nothing to return.
+            if let Some(file) = return_parameters {
+                write_atomically(file, true, |_| Ok(()))?;
+            }
+            finish();
+        }
+    }
+    Ok(())
+}
+
+/// Prints with a single write, so that no host reads half of it.
+fn print(text: &str) {
+    // If standard output is closed there is nobody to tell.
+    drop(io::stdout().lock().write_all(text.as_bytes()));
+}
