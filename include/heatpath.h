@@ -4,10 +4,9 @@
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths, hp_solver, hp_mesh and
- * hp_mesh_solver. Nothing is printed, and no state of
- * the process is changed; threads are started anew for a call and end before it returns.
- * All functions may be called from any thread.
+ * wrong. All memory stays the caller's, except for what the functions that end in _create hand out.
+ * Nothing is printed, and no state of the process is changed; threads are started anew for a call and
+ * end before it returns. All functions may be called from any thread.
  *
  * Structs begin with their size. Fill them with the _init function, or set struct_size where there
  * is none: a program then works with later versions of the library, whose structs may be longer.
@@ -79,6 +78,9 @@
  */
 #define HP_INVALID_MESH 12
 
+/** There is nothing to find: the image shows no structure. */
+#define HP_NO_ANSWER 13
+
 /** Pixels are uint8_t. */
 #define HP_U8 1
 
@@ -138,6 +140,39 @@
  */
 #define HP_MEDIUM_GIVEN_TENSOR 7
 
+/**
+ * D of eq. (12): heat runs along the directions of the image, see hp_options.directions and
+ * anisotropy.
+ */
+#define HP_MEDIUM_TENSOR 8
+
+/**
+ * k = v^power + floor, with the response v, from 0 to 1, of a filter for tubes: vessels, wires,
+ * fibres; see hp_options.polarity, scales, elongation and anisotropy.
+ */
+#define HP_MEDIUM_VESSELNESS 9
+
+/** Along the axis of least curvature of the grey values: along tubes. The default. */
+#define HP_DIRECTIONS_HESSIAN 0
+
+/** Along the lines of a texture. */
+#define HP_DIRECTIONS_STRUCTURE 1
+
+/** Along edges: across the gradient. */
+#define HP_DIRECTIONS_GRADIENT 2
+
+/** Bright tubes for HP_MEDIUM_VESSELNESS, both kinds for HP_MEDIUM_TENSOR. The default. */
+#define HP_POLARITY_DEFAULT 0
+
+/** Tubes that are brighter than what is around them. */
+#define HP_POLARITY_BRIGHT 1
+
+/** Tubes that are darker than what is around them. */
+#define HP_POLARITY_DARK 2
+
+/** Both kinds. */
+#define HP_POLARITY_BOTH 3
+
 /** D = exp(-(|grad f| / contrast)^2). The default. */
 #define HP_EDGE_STOP_EXPONENTIAL 1
 
@@ -168,6 +203,14 @@
  * near the sources.
  */
 #define HP_VARADHAN 2
+
+/**
+ * The heat method: heat flows for a short time, and distances are the function that rises along its
+ * direction. Prepared once, it is fast for many sources; distances are smooth. Not for media of
+ * tensors. It takes some 1.1 kB for each pixel of a picture, and many more for a volume; of the
+ * options of heat time (0, the default, stands for 1 over the mean of the medium) and memory count.
+ */
+#define HP_HEAT_METHOD 4
 
 /**
  * The exact weighted distance, without heat: the eikonal equation by fast marching, to second order.
@@ -208,6 +251,42 @@
 
 /** An isoline whose last point is joined to the first. */
 #define HP_ENDED_CLOSED 6
+
+/** Heat begins again from all that has been found. The default. */
+#define HP_VOTES_ACCUMULATED 0
+
+/** One vote from the front of heat that has flowed for long. */
+#define HP_VOTES_FRONT 1
+
+/** Heat flows on from vote to vote. */
+#define HP_VOTES_MULTIPLE 2
+
+/** Fast marching, and the paths from 500 random pixels. */
+#define HP_VOTES_RANDOM 3
+
+/** Fast marching, and the paths from all pixels of the border. */
+#define HP_VOTES_BORDER 4
+
+/** Peaks of heat on circles. The default. */
+#define HP_KEY_POINTS_HEAT 0
+
+/** Points that paths of one length lead to, by fast marching. */
+#define HP_KEY_POINTS_LENGTH 1
+
+/** All was found that there was to find. */
+#define HP_STOP_COMPLETE 0
+
+/** Votes kept as large a part of the image as they may. */
+#define HP_STOP_LARGEST_SHARE 1
+
+/** Another round of votes found little that was new. */
+#define HP_STOP_SETTLED 2
+
+/** These were all rounds of votes. */
+#define HP_STOP_ROUNDS 3
+
+/** There were as many key points as there may be, 10,000. */
+#define HP_STOP_MOST 4
 
 /** Numbers are int64_t; in hp_array only. */
 #define HP_I64 9
@@ -284,6 +363,21 @@
 #define HP_CURVATURE_LEAST_SQUARES 1
 
 /**
+ * All functions of this header, for programs that load the library at run time: one call of dlsym()
+ * for hp_get_api() is enough. Later versions add functions at the end.
+ */
+typedef struct hp_api hp_api;
+
+/**
+ * Curves as a graph: nodes, and branches between them.
+ *
+ * Made by hp_votes_create(), hp_key_points_create() or hp_skeleton_create(), and freed by
+ * hp_graph_free(). It does not change, so any number of threads may use it at once, and any thread
+ * may free it once the others are done.
+ */
+typedef struct hp_graph hp_graph;
+
+/**
  * A triangle mesh: a copy of the caller's points and faces, cleaned.
  *
  * Made by hp_mesh_create() and freed by hp_mesh_free(), even while solvers that were made from it
@@ -310,7 +404,7 @@ typedef struct hp_mesh_solver hp_mesh_solver;
 typedef struct hp_paths hp_paths;
 
 /**
- * A medium prepared for distances from any sources.
+ * A medium prepared for distances and paths from any sources.
  *
  * Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
  * threads may use it at once, and any thread may free it once the others are done.
@@ -387,18 +481,21 @@ typedef struct hp_options {
   /** One of HP_MEDIUM_...; HP_MEDIUM_CONDUCTIVITY by default. */
   uint32_t medium;
   /**
-   * For conductivity and combined: how strongly unlike grey values are held back. Positive;
-   * 3 by default.
+   * For conductivity and combined: how strongly unlike grey values are held back. For vesselness:
+   * how strongly weak tubes are. Positive. Not a number (NAN), the default, stands for 3, of
+   * vesselness for 2.
    */
   double power;
   /**
-   * For conductivity, combined and edges: what keeps the medium above zero. Positive; 0.001 by
-   * default.
+   * For conductivity, combined, edges and vesselness: what keeps the medium above zero. Positive.
+   * Not a number (NAN), the default, stands for 0.001, of vesselness for 0.0001.
    */
   double floor;
   /**
    * For Perona-Malik and combined: the gradient, in grey values (full range 1) per pixel, at
-   * which heat is held back. Positive; 0.03 by default.
+   * which heat is held back. For vesselness: the strength of a tube whose response is 1. Positive.
+   * Not a number (NAN), the default, stands for 0.03; of vesselness for the strongest tube of the
+   * image, and for 0.125 if normalize is set.
    */
   double contrast;
   /**
@@ -406,7 +503,7 @@ typedef struct hp_options {
    * HP_EDGE_STOP_RATIONAL.
    */
   uint32_t edge_stop;
-  /** For all media but uniform, conductivity and given tensor: one of HP_FORM_... */
+  /** For Perona-Malik, combined, edges and given: one of HP_FORM_... */
   uint32_t form;
   /**
    * For Perona-Malik, combined and edges: the standard deviation, in pixels, of the Gaussian
@@ -440,7 +537,7 @@ typedef struct hp_options {
    * that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
    */
   double step;
-  /** HP_NORMALIZED, the default, HP_VARADHAN or HP_EIKONAL. */
+  /** HP_NORMALIZED, the default, HP_VARADHAN, HP_EIKONAL or HP_HEAT_METHOD. */
   uint32_t estimator;
   /**
    * The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
@@ -461,7 +558,7 @@ typedef struct hp_options {
    */
   double reference;
   /**
-   * For HP_SOLVER_IMPLICIT: the most bytes that the factorisation may take. 0, the default,
+   * For HP_SOLVER_IMPLICIT and HP_HEAT_METHOD: the most bytes that a factorisation may take. 0, the default,
    * stands for 4 GiB.
    */
   uint64_t memory;
@@ -478,6 +575,42 @@ typedef struct hp_options {
   const double *tensor;
   /** The number of these components: 3 or, in a volume, 6 for each pixel. */
   uint64_t tensor_count;
+  /** For HP_MEDIUM_TENSOR: one of HP_DIRECTIONS_...; HP_DIRECTIONS_HESSIAN by default. */
+  uint32_t directions;
+  /**
+   * For HP_MEDIUM_VESSELNESS, and HP_DIRECTIONS_HESSIAN of HP_MEDIUM_TENSOR: one of
+   * HP_POLARITY_...
+   */
+  uint32_t polarity;
+  /**
+   * For HP_MEDIUM_TENSOR and HP_MEDIUM_VESSELNESS: A of eq. (14), heat is (1 + A) / (1 - A) times
+   * as fast along as across. Up to 0.9998. 0, the default, stands for 0.9 of the former, and for
+   * none of the latter.
+   */
+  double anisotropy;
+  /**
+   * For HP_MEDIUM_VESSELNESS: the half widths of tubes to look for, in multiples of the smallest
+   * spacing; 2, 3 and 4.5 by default. For HP_MEDIUM_TENSOR: one, the Gaussian before the
+   * derivatives; 2 by default. Need not be aligned.
+   */
+  const double *scales;
+  /** How many scales there are, up to 64; 0, the default, stands for those above. */
+  uint64_t scale_count;
+  /**
+   * For HP_MEDIUM_VESSELNESS: how much longer than wide the filter is, from 1 to 10: faint tubes
+   * stand out, but take ten times as long. 0, the default, stands for 1.
+   */
+  double elongation;
+  /**
+   * For all media that see grey values: light is evened out over so many multiples of the smallest
+   * spacing, the standard deviation of a Gaussian. 0, the default, leaves it as it is.
+   */
+  double normalize;
+  /**
+   * By how many multiples of the smallest spacing the walls of a mask are made thicker; 0 by
+   * default. The rim of a field of view looks like a line otherwise.
+   */
+  double margin;
 } hp_options;
 
 /** What is known about a path besides its points. Set struct_size, then call hp_paths_info(). */
@@ -497,6 +630,150 @@ typedef struct hp_path_info {
   /** The distance of the end point from the sources, infinite if the path reaches none. */
   double distance;
 } hp_path_info;
+
+/**
+ * How hp_votes_create() looks for curves. NULL in place of it means all defaults.
+ *
+ * Fill it with hp_vote_options_init(), then change fields. What the method does not use is ignored.
+ */
+typedef struct hp_vote_options {
+  /** sizeof(hp_vote_options). */
+  uint32_t struct_size;
+  /** One of HP_VOTES_... */
+  uint32_t method;
+  /**
+   * The squared speed of the medium from which on a pixel is part of the structure. Not a number
+   * (NAN), the default: it is chosen from the medium.
+   */
+  double structure;
+  /**
+   * If no sources are given: pieces of the structure whose bounding box has at least this diagonal
+   * get one. In multiples of the smallest spacing; not a number (NAN), the default, stands for a
+   * sixteenth of the longest side.
+   */
+  double extent;
+  /**
+   * Anything but 0: the paper's rules alone, by which also the front votes and voting goes on into the
+   * background, instead of growth that stops at the edge of the structure. 0 by default.
+   */
+  uint32_t no_growth;
+  /**
+   * With growth: pixels are kept beyond which more of the structure's pixels lie; 0, the default,
+   * stands for 10.
+   */
+  uint32_t least_votes;
+  /**
+   * With growth: the longest way outside of the structure that a path may bridge, in multiples of
+   * the smallest spacing. Not a number (NAN), the default, stands for 6.
+   */
+  double gap;
+  /**
+   * Without growth: pixels are kept whose density is above this part of the largest one. From 0 to
+   * below 1. Not a number (NAN), the default, stands for the paper's, 1/30 or 1/7.
+   */
+  double threshold;
+  /**
+   * How far below the highest temperature heat counts as having come, in logarithms. Not a number
+   * (NAN), the default, stands for 36, or 240 of the front and multiple votes.
+   */
+  double level;
+  /**
+   * Voting ends when more than this part of the kept pixels was kept before. From 0 to 1. Not a
+   * number (NAN), the default, stands for 0.95, and 0.99 with growth.
+   */
+  double settled;
+  /** The time steps of heat before each vote; 0, the default, stands for the method's own. */
+  uint64_t iterations;
+  /**
+   * Branches with a free end that are shorter than this, in physical units, or than 1.5 radii of the
+   * junction are taken off the graph; 0 by default.
+   */
+  double prune;
+} hp_vote_options;
+
+/**
+ * How hp_key_points_create() looks for curves. NULL in place of it means all defaults.
+ *
+ * Fill it with hp_key_point_options_init(), then change fields.
+ */
+typedef struct hp_key_point_options {
+  /** sizeof(hp_key_point_options). */
+  uint32_t struct_size;
+  /** HP_KEY_POINTS_HEAT, the default, or HP_KEY_POINTS_LENGTH. */
+  uint32_t method;
+  /** As in hp_vote_options; paths may run where the medium is half as fast squared, unless it is set. */
+  double structure;
+  /** As in hp_vote_options. */
+  double extent;
+  /**
+   * The distance between key points, in multiples of the smallest spacing, at least 4. Not a number
+   * (NAN), the default, stands for 4 half widths of the structure, from 10 to 30.
+   */
+  double radius;
+  /**
+   * For HP_KEY_POINTS_HEAT: the time steps of heat for each key point; 0, the default, stands for
+   * 50, or as many as heat needs to come so far.
+   */
+  uint64_t iterations;
+} hp_key_point_options;
+
+/** What is known about a graph. Set struct_size, then call hp_graph_describe(). */
+typedef struct hp_graph_info {
+  /** sizeof(hp_graph_info). */
+  uint32_t struct_size;
+  /** The number of coordinates of a point, 2 or 3. */
+  uint32_t dimension;
+  /** The number of nodes. */
+  uint64_t node_count;
+  /** The number of branches. */
+  uint64_t branch_count;
+  /** The number of sources, given or found. */
+  uint64_t source_count;
+  /** The length of all branches, in physical units. */
+  double physical_length;
+  /** The rounds of votes; 0 without votes. */
+  uint64_t rounds;
+  /** Why the search ended: one of HP_STOP_... */
+  uint32_t stop;
+  /** 0. */
+  uint32_t reserved;
+} hp_graph_info;
+
+/** An end or a junction of branches, or a key point. Set struct_size, then call hp_graph_node_at(). */
+typedef struct hp_graph_node {
+  /** sizeof(hp_graph_node). */
+  uint32_t struct_size;
+  /** How many ends of branches meet here. */
+  uint32_t degree;
+  /** x, y and, in a volume, z, in pixel coordinates; 0 otherwise. */
+  double point[3];
+  /** The radius of the structure, in physical units; not a number for key points. */
+  double radius;
+  /** The key point from which this one was found; -1 for sources, and if nodes are no key points. */
+  int64_t parent;
+} hp_graph_node;
+
+/** A curve between two nodes. Set struct_size, then call hp_graph_branch_at(). */
+typedef struct hp_graph_branch {
+  /** sizeof(hp_graph_branch). */
+  uint32_t struct_size;
+  /** 0. */
+  uint32_t reserved;
+  /** The node at its first point. */
+  uint64_t from;
+  /** The node at its last point; the same on a closed curve. */
+  uint64_t to;
+  /** The number of points. */
+  uint64_t point_count;
+  /** The length in pixels. */
+  double length;
+  /** The length in physical units. */
+  double physical_length;
+  /** The physical length over that of the straight line between the ends; infinite on a closed curve. */
+  double tortuosity;
+  /** The mean of the radii along the curve, in physical units; not a number between key points. */
+  double mean_radius;
+} hp_graph_branch;
 
 /**
  * The caller's list of items, described but never owned or kept. An item is one number (the number
@@ -528,6 +805,63 @@ typedef struct hp_array {
    */
   int64_t byte_stride;
 } hp_array;
+
+/**
+ * Curves of the caller: polylines, or the pixels of a mask.
+ *
+ * Fill it with hp_curves_init(), then set points, or mask. It is only read, and not kept.
+ */
+typedef struct hp_curves {
+  /** sizeof(hp_curves). */
+  uint32_t struct_size;
+  /** The number of coordinates of a point: 2, the default, or 3. That of a mask counts instead. */
+  uint32_t dimension;
+  /**
+   * The points of all polylines, one polyline after the other; any type. An item is x, y or x, y, z
+   * in pixel coordinates.
+   */
+  const struct hp_array *points;
+  /**
+   * Where the points of each polyline begin, and, last, where those of the last one end; integers.
+   * NULL, the default, if there is one polyline.
+   */
+  const struct hp_array *starts;
+  /**
+   * The physical distance of neighbouring pixels along each axis, positive; 1 by default. That of a
+   * mask counts instead.
+   */
+  double spacing[3];
+  /** Instead of points: the pixels that are not 0, of which the centreline counts; any type. */
+  const struct hp_buffer *mask;
+} hp_curves;
+
+/** How well curves agree. Set struct_size, then call hp_evaluate(). */
+typedef struct hp_score {
+  /** sizeof(hp_score). */
+  uint32_t struct_size;
+  /** 0. */
+  uint32_t reserved;
+  /**
+   * The part of the truth's length within the tolerance of the extraction, 0 to 1; 1 if the truth
+   * has no length.
+   */
+  double recall;
+  /**
+   * The part of the extracted length within the tolerance of the truth, 0 to 1; 1 if nothing was
+   * extracted.
+   */
+  double precision;
+  /** Their harmonic mean; 0 if both are. */
+  double f1;
+  /** The truth's length, in physical units. */
+  double truth_length;
+  /** The extraction's length, in physical units. */
+  double extracted_length;
+  /** The mean distance of the truth from the extraction, in physical units. */
+  double truth_distance;
+  /** The mean distance of the extraction from the truth, in physical units. */
+  double extracted_distance;
+} hp_score;
 
 /**
  * What to compute on a mesh and how. NULL in place of it means all defaults.
@@ -779,6 +1113,25 @@ hp_status hp_distance(const struct hp_buffer *image,
                       const struct hp_buffer *distance);
 
 /**
+ * Writes the medium that the options make of an image, without letting heat flow in it.
+ *
+ * image, mask, sources, source_count and options are those of hp_distance(). Sources are needed only
+ * by HP_MEDIUM_CONDUCTIVITY and HP_MEDIUM_COMBINED without a reference; else they may be NULL.
+ *
+ * squared_speed: receives k D, the square of the speed; of the same size, HP_F32 or HP_F64. Where D is
+ * a matrix it is the geometric mean over its principal directions. 0 in walls.
+ *
+ * The caller promises:
+ * As hp_distance().
+ */
+hp_status hp_medium(const struct hp_buffer *image,
+                    const struct hp_buffer *mask,
+                    const double *sources,
+                    uint64_t source_count,
+                    const struct hp_options *options,
+                    const struct hp_buffer *squared_speed);
+
+/**
  * Traces the minimal path from each end point to a source.
  *
  * image, mask, sources, source_count and options are those of hp_distance().
@@ -904,6 +1257,29 @@ hp_status hp_solver_distances(const struct hp_solver *solver,
                               int64_t map_stride);
 
 /**
+ * Traces the minimal path from each end point to a source, as hp_paths_create() does, in a medium that
+ * was prepared once.
+ *
+ * sources, ends: source_count and end_count points, as for hp_paths_create().
+ *
+ * options: as for hp_solver_distances().
+ *
+ * paths: receives the paths, to be freed with hp_paths_free(), or NULL if anything but HP_OK is
+ * returned.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_solver_create() and was not freed yet. The structs are as
+ * large as their struct_size says, and the points are as large as their description.
+ */
+hp_status hp_solver_paths_create(const struct hp_solver *solver,
+                                 const double *sources,
+                                 uint64_t source_count,
+                                 const double *ends,
+                                 uint64_t end_count,
+                                 const struct hp_options *options,
+                                 struct hp_paths **paths);
+
+/**
  * Frees a solver; NULL is fine.
  *
  * The caller promises:
@@ -912,12 +1288,209 @@ hp_status hp_solver_distances(const struct hp_solver *solver,
 void hp_solver_free(struct hp_solver *solver);
 
 /**
+ * Fills *options with the defaults; struct_size is sizeof(hp_vote_options).
+ *
+ * The caller promises:
+ * options is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_vote_options_init(struct hp_vote_options *options, uint32_t struct_size);
+
+/**
+ * Fills *options with the defaults; struct_size is sizeof(hp_key_point_options).
+ *
+ * The caller promises:
+ * options is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_key_point_options_init(struct hp_key_point_options *options, uint32_t struct_size);
+
+/**
+ * Frees a graph; NULL is fine.
+ *
+ * The caller promises:
+ * graph is NULL or comes from one of the functions that make graphs, and was not freed yet.
+ */
+void hp_graph_free(struct hp_graph *graph);
+
+/**
+ * Writes what is known about a graph to *info, whose struct_size must be set.
+ *
+ * The caller promises:
+ * graph is NULL or comes from one of the functions that make graphs; info is NULL or points to
+ * as many bytes as its struct_size says.
+ */
+hp_status hp_graph_describe(const struct hp_graph *graph, struct hp_graph_info *info);
+
+/**
+ * Writes what is known about a node to *node, whose struct_size must be set.
+ *
+ * The caller promises:
+ * As hp_graph_describe().
+ */
+hp_status hp_graph_node_at(const struct hp_graph *graph,
+                           uint64_t index,
+                           struct hp_graph_node *node);
+
+/**
+ * Writes what is known about a branch to *branch, whose struct_size must be set.
+ *
+ * The caller promises:
+ * As hp_graph_describe().
+ */
+hp_status hp_graph_branch_at(const struct hp_graph *graph,
+                             uint64_t index,
+                             struct hp_graph_branch *branch);
+
+/**
+ * Copies the points of a branch, in pixel coordinates, and the radii there.
+ *
+ * coordinates: receives x, y or x, y, z of each point: hp_graph_info.dimension times as many doubles as
+ * hp_graph_branch.point_count says.
+ *
+ * radii: receives a radius for each point, in physical units, not a number between key points. NULL
+ * if they are not wanted.
+ *
+ * capacity: for how many points there is room.
+ *
+ * The caller promises:
+ * graph is NULL or comes from one of the functions that make graphs; coordinates and radii are
+ * NULL or have room for capacity points.
+ */
+hp_status hp_graph_branch_points(const struct hp_graph *graph,
+                                 uint64_t index,
+                                 double *coordinates,
+                                 double *radii,
+                                 uint64_t capacity);
+
+/**
+ * Copies the sources, given or found, in pixel coordinates.
+ *
+ * coordinates: receives x, y or x, y, z of each: hp_graph_info.dimension times as many doubles as
+ * hp_graph_info.source_count says.
+ *
+ * capacity: for how many points there is room.
+ *
+ * The caller promises:
+ * graph is NULL or comes from one of the functions that make graphs; coordinates is NULL or has
+ * room for capacity points.
+ */
+hp_status hp_graph_sources(const struct hp_graph *graph, double *coordinates, uint64_t capacity);
+
+/**
+ * Finds the curves of an image by the votes of many minimal paths (section 4.1 of the paper), as a graph
+ * with radii.
+ *
+ * image, mask, sources, source_count and options are those of hp_distance(), of which medium, range,
+ * threads and progress count. Without sources (NULL, 0) there is a seed in each long piece of the
+ * structure.
+ *
+ * vote_options: NULL for the defaults.
+ *
+ * density: receives the number of paths through each pixel; of the same size, HP_F32 or HP_F64. NULL
+ * if it is not wanted.
+ *
+ * kept: receives 255 in the pixels of the curves and 0 elsewhere; of the same size, HP_U8. NULL if it
+ * is not wanted.
+ *
+ * graph: receives the curves, to be freed with hp_graph_free(), or NULL if anything but HP_OK is
+ * returned.
+ *
+ * HP_NO_ANSWER is returned if there are no sources and the image shows no structure to put them on.
+ *
+ * The caller promises:
+ * The structs are as large as their struct_size says, and buffers and points are as large as
+ * their description. The results are not used by another thread meanwhile.
+ */
+hp_status hp_votes_create(const struct hp_buffer *image,
+                          const struct hp_buffer *mask,
+                          const double *sources,
+                          uint64_t source_count,
+                          const struct hp_options *options,
+                          const struct hp_vote_options *vote_options,
+                          const struct hp_buffer *density,
+                          const struct hp_buffer *kept,
+                          struct hp_graph **graph);
+
+/**
+ * Finds the curves of an image from key point to key point (section 4.2 of the paper), as a graph whose
+ * nodes are the key points.
+ *
+ * image, mask, sources, source_count and options are those of hp_votes_create().
+ *
+ * key_point_options: NULL for the defaults.
+ *
+ * graph: receives the key points and the paths between them, to be freed with hp_graph_free(), or
+ * NULL if anything but HP_OK is returned. The first nodes are the sources, or the seeds that were
+ * found; all other nodes have a parent, to which a branch leads. Branches between nodes neither of
+ * which is the parent of the other close a curve.
+ *
+ * HP_NO_ANSWER is returned if the image shows no structure.
+ *
+ * The caller promises:
+ * The structs are as large as their struct_size says, and buffers and points are as large as
+ * their description.
+ */
+hp_status hp_key_points_create(const struct hp_buffer *image,
+                               const struct hp_buffer *mask,
+                               const double *sources,
+                               uint64_t source_count,
+                               const struct hp_options *options,
+                               const struct hp_key_point_options *key_point_options,
+                               struct hp_graph **graph);
+
+/**
+ * Makes a graph of the centreline of a mask, with the distances to its edge as radii.
+ *
+ * mask: the pixels that are not 0; any type.
+ *
+ * prune: branches with a free end that are shorter than this, in physical units, or than 1.5 radii of the
+ * junction are taken off.
+ *
+ * graph: receives the graph, to be freed with hp_graph_free(), or NULL if anything but HP_OK is
+ * returned.
+ *
+ * The caller promises:
+ * The struct is as large as its struct_size says, and the buffer is as large as its description.
+ */
+hp_status hp_skeleton_create(const struct hp_buffer *mask,
+                             double prune,
+                             struct hp_graph **graph);
+
+/**
  * Fills *array with the defaults; struct_size is sizeof(hp_array).
  *
  * The caller promises:
  * array is NULL or points to struct_size writable bytes.
  */
 hp_status hp_array_init(struct hp_array *array, uint32_t struct_size);
+
+/**
+ * Fills *curves with the defaults; struct_size is sizeof(hp_curves).
+ *
+ * The caller promises:
+ * curves is NULL or points to struct_size writable bytes.
+ */
+hp_status hp_curves_init(struct hp_curves *curves, uint32_t struct_size);
+
+/**
+ * Compares extracted curves with a truth: recall and precision by length.
+ *
+ * extracted, truth: of the same dimension and spacing.
+ *
+ * view: pixels that are 0 do not count, on either side; any type. NULL if all do.
+ *
+ * tolerance: the largest distance at which curves agree, in physical units; from 0.
+ *
+ * score: receives the answer; its struct_size must be set.
+ *
+ * The caller promises:
+ * The structs are as large as their struct_size says, and buffers and lists are as large as their
+ * description.
+ */
+hp_status hp_evaluate(const struct hp_curves *extracted,
+                      const struct hp_curves *truth,
+                      const struct hp_buffer *view,
+                      double tolerance,
+                      struct hp_score *score);
 
 /**
  * Fills *options with the defaults; struct_size is sizeof(hp_mesh_options).
@@ -1180,6 +1753,103 @@ hp_status hp_mesh_curvature(const struct hp_mesh *mesh,
                             const struct hp_array *largest,
                             const struct hp_array *smallest_directions,
                             const struct hp_array *largest_directions);
+
+/**
+ * The table of all functions, or NULL if the library has another ABI than the caller.
+ *
+ * abi_version: HP_ABI_VERSION of the header that the caller was compiled with.
+ *
+ * The table belongs to the library and lives as long as it is loaded. A library that is older than
+ * the header may have a shorter table: what lies beyond hp_api.struct_size is not there.
+ */
+const struct hp_api *hp_get_api(uint32_t abi_version);
+
+struct hp_api {
+  /** The size of the table, in bytes. */
+  uint32_t struct_size;
+  /** The HP_ABI_VERSION of the library. */
+  uint32_t abi;
+  uint32_t (*abi_version)(void);
+  const char *(*version_string)(void);
+  const char *(*last_error_message)(void);
+  const char *(*status_name)(hp_status status);
+  hp_status (*buffer_init)(struct hp_buffer *buffer, uint32_t struct_size);
+  hp_status (*options_init)(struct hp_options *options, uint32_t struct_size);
+  hp_status (*distance)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const double *sources, uint64_t source_count, const struct hp_options *options,
+      const struct hp_buffer *distance);
+  hp_status (*medium)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const double *sources, uint64_t source_count, const struct hp_options *options,
+      const struct hp_buffer *squared_speed);
+  hp_status (*paths_create)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const double *sources, uint64_t source_count, const double *ends, uint64_t end_count,
+      const struct hp_options *options, struct hp_paths **paths);
+  void (*paths_free)(struct hp_paths *paths);
+  hp_status (*paths_count)(const struct hp_paths *paths, uint64_t *count);
+  hp_status (*paths_info)(const struct hp_paths *paths, uint64_t index, struct hp_path_info *info);
+  hp_status (*paths_points)(const struct hp_paths *paths, uint64_t index, double *coordinates,
+      uint64_t capacity);
+  hp_status (*solver_create)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const struct hp_options *options, struct hp_solver **solver);
+  hp_status (*solver_distances)(const struct hp_solver *solver, const double *sources,
+      uint64_t source_count, const struct hp_options *options, const struct hp_buffer *distances,
+      int64_t map_stride);
+  hp_status (*solver_paths_create)(const struct hp_solver *solver, const double *sources,
+      uint64_t source_count, const double *ends, uint64_t end_count,
+      const struct hp_options *options, struct hp_paths **paths);
+  void (*solver_free)(struct hp_solver *solver);
+  hp_status (*vote_options_init)(struct hp_vote_options *options, uint32_t struct_size);
+  hp_status (*key_point_options_init)(struct hp_key_point_options *options, uint32_t struct_size);
+  hp_status (*votes_create)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const double *sources, uint64_t source_count, const struct hp_options *options,
+      const struct hp_vote_options *vote_options, const struct hp_buffer *density,
+      const struct hp_buffer *kept, struct hp_graph **graph);
+  hp_status (*key_points_create)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const double *sources, uint64_t source_count, const struct hp_options *options,
+      const struct hp_key_point_options *key_point_options, struct hp_graph **graph);
+  hp_status (*skeleton_create)(const struct hp_buffer *mask, double prune, struct hp_graph **graph);
+  hp_status (*graph_describe)(const struct hp_graph *graph, struct hp_graph_info *info);
+  hp_status (*graph_node_at)(const struct hp_graph *graph, uint64_t index,
+      struct hp_graph_node *node);
+  hp_status (*graph_branch_at)(const struct hp_graph *graph, uint64_t index,
+      struct hp_graph_branch *branch);
+  hp_status (*graph_branch_points)(const struct hp_graph *graph, uint64_t index,
+      double *coordinates, double *radii, uint64_t capacity);
+  hp_status (*graph_sources)(const struct hp_graph *graph, double *coordinates, uint64_t capacity);
+  void (*graph_free)(struct hp_graph *graph);
+  hp_status (*curves_init)(struct hp_curves *curves, uint32_t struct_size);
+  hp_status (*evaluate)(const struct hp_curves *extracted, const struct hp_curves *truth,
+      const struct hp_buffer *view, double tolerance, struct hp_score *score);
+  hp_status (*array_init)(struct hp_array *array, uint32_t struct_size);
+  hp_status (*mesh_options_init)(struct hp_mesh_options *options, uint32_t struct_size);
+  hp_status (*surface_points_init)(struct hp_surface_points *points, uint32_t struct_size);
+  hp_status (*mesh_create)(const struct hp_array *points, const struct hp_array *faces,
+      const struct hp_array *starts, const struct hp_mesh_options *options, struct hp_mesh **mesh);
+  void (*mesh_free)(struct hp_mesh *mesh);
+  hp_status (*mesh_describe)(const struct hp_mesh *mesh, struct hp_mesh_report *report);
+  hp_status (*mesh_faces)(const struct hp_mesh *mesh, const struct hp_array *faces);
+  hp_status (*mesh_solver_create)(const struct hp_mesh *mesh, const struct hp_mesh_options *options,
+      struct hp_mesh_solver **solver);
+  void (*mesh_solver_free)(struct hp_mesh_solver *solver);
+  hp_status (*mesh_solver_method)(const struct hp_mesh_solver *solver, uint32_t *method);
+  hp_status (*mesh_solver_distances)(const struct hp_mesh_solver *solver,
+      const struct hp_surface_points *sources, const struct hp_mesh_options *options,
+      const struct hp_array *distances, int64_t map_stride, const struct hp_array *labels,
+      int64_t label_stride);
+  hp_status (*mesh_solver_matrix)(const struct hp_mesh_solver *solver,
+      const struct hp_mesh_options *options, const struct hp_array *distances, int64_t row_stride);
+  hp_status (*mesh_paths_create)(const struct hp_mesh_solver *solver,
+      const struct hp_surface_points *sources, const struct hp_surface_points *ends,
+      const struct hp_mesh_options *options, struct hp_paths **paths);
+  hp_status (*mesh_paths_through)(const struct hp_mesh_solver *solver,
+      const struct hp_surface_points *points, const struct hp_mesh_options *options,
+      struct hp_paths **paths);
+  hp_status (*mesh_isolines_create)(const struct hp_mesh *mesh, const struct hp_array *values,
+      const struct hp_array *levels, struct hp_paths **isolines);
+  hp_status (*mesh_curvature)(const struct hp_mesh *mesh, const struct hp_mesh_options *options,
+      const struct hp_array *smallest, const struct hp_array *largest,
+      const struct hp_array *smallest_directions, const struct hp_array *largest_directions);
+};
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -81,7 +81,7 @@ static void wrong_options(void)
 {
     hp_options options = defaults();
     REFUSE(0, threads, 1, HP_INVALID_ARGUMENT, "medium is 0");
-    REFUSE(8, threads, 1, HP_INVALID_ARGUMENT, "medium is 8");
+    REFUSE(10, threads, 1, HP_INVALID_ARGUMENT, "medium is 10");
     REFUSE(HP_MEDIUM_COMBINED, edge_stop, 0, HP_INVALID_ARGUMENT, "edge_stop is 0");
     REFUSE(HP_MEDIUM_EDGES, form, 3, HP_INVALID_ARGUMENT, "form is 3");
     REFUSE(HP_MEDIUM_UNIFORM, estimator, 0, HP_INVALID_ARGUMENT, "estimator is 0");
@@ -89,7 +89,7 @@ static void wrong_options(void)
     REFUSE(HP_MEDIUM_GIVEN_TENSOR, tensor, source, HP_INVALID_ARGUMENT, "tensor_count is 0");
     REFUSE(HP_MEDIUM_UNIFORM, threads, 5000, HP_INVALID_ARGUMENT, "at most 1024");
     REFUSE(HP_MEDIUM_CONDUCTIVITY, power, -1, HP_INVALID_ARGUMENT, "power is -1");
-    REFUSE(HP_MEDIUM_CONDUCTIVITY, floor, NAN, HP_INVALID_ARGUMENT, "floor is NaN");
+    REFUSE(HP_MEDIUM_CONDUCTIVITY, floor, INFINITY, HP_INVALID_ARGUMENT, "floor is inf");
     REFUSE(HP_MEDIUM_PERONA_MALIK, contrast, 0, HP_INVALID_ARGUMENT, "contrast is 0");
     REFUSE(HP_MEDIUM_COMBINED, smoothing, -1, HP_INVALID_ARGUMENT, "smoothing");
     REFUSE(HP_MEDIUM_EDGES, smoothing, INFINITY, HP_INVALID_ARGUMENT, "smoothing");

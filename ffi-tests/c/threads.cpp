@@ -1,4 +1,4 @@
-// Four threads at once: each gets its own results and its own messages.
+// Eight threads at once, of which every other one cancels: each gets its own results and messages.
 #include "heatpath.h"
 
 #include <array>
@@ -46,6 +46,31 @@ std::vector<double> distances(const hp_buffer &image, uint32_t threads)
     return result;
 }
 
+int cancel(double, void *calls)
+{
+    ++*static_cast<int *>(calls);
+    return 1;
+}
+
+// Nothing is written, and nobody else is disturbed.
+void cancelled(const hp_buffer &image, uint32_t threads)
+{
+    std::vector<double> result(width * height, -1.0);
+    const std::vector<double> untouched = result;
+    const hp_buffer target = describe(result, HP_F64);
+    int calls = 0;
+    hp_options options;
+    check(hp_options_init(&options, sizeof options) == HP_OK, "options");
+    options.threads = threads;
+    options.progress = cancel;
+    options.user = &calls;
+    const double source[2] = {5, 6};
+    const hp_status status = hp_distance(&image, nullptr, source, 1, &options, &target);
+    check(status == HP_CANCELLED, "a cancelled call");
+    check(calls == 1, "a call that goes on after it was cancelled");
+    check(result == untouched, "the result of a cancelled call");
+}
+
 // The maps of two sources, by a solver that threads share.
 std::vector<double> maps(const hp_solver *solver)
 {
@@ -67,6 +92,8 @@ void work(unsigned number, const hp_buffer &image, const Shared &shared)
     const double outside[2] = {-100.0 - number, 0.0};
     const std::string words = "[-10" + std::to_string(number) + ".0, 0.0]";
     for (int round = 0; round < 5; ++round) {
+        if (number % 2 == 1)
+            cancelled(image, 1 + number % 3);
         std::vector<double> unused(width * height);
         hp_buffer target = describe(unused, HP_F64);
         const hp_status status = hp_distance(&image, nullptr, outside, 1, nullptr, &target);
@@ -103,7 +130,7 @@ int main()
     check(hp_solver_create(&image, nullptr, &options, &solver) == HP_OK, "solver");
     const Shared shared{paths, solver, expected, maps(solver)};
     std::vector<std::thread> threads;
-    for (unsigned number = 0; number < 4; ++number)
+    for (unsigned number = 0; number < 8; ++number)
         threads.emplace_back(work, number, std::cref(image), std::cref(shared));
     for (std::thread &thread : threads)
         thread.join();

@@ -60,8 +60,9 @@ unsafe fn write_distance<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     target.check_size(problem.mask().shape())?;
-    let solved = problem.solve(&[], 1.0)?;
-    problem.progress().check(1.0)?;
+    let (prepared, exec) = problem.prepare(1.0)?;
+    let solved = prepared.solve(&problem.sources, &[], problem.settings.readout, &exec)?;
+    problem.settings.progress.check(1.0)?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
     unsafe { pixels::write(&target, solved.distances.field().values()) };
     Ok(())

@@ -9,9 +9,14 @@
 //! | `version` | which library this is |
 //! | `status` | what functions return, and the message that goes with it |
 //! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
-//! | `options` | medium, heat, estimator, threads and progress; `settings` checks them |
+//! | `array` | the same of lists; `items`, `numbers` |
+//! | `options` | medium, heat, estimator, threads and progress; `settings` and `recipe` check them |
+//! | `scene` | image, walls and recipe make a medium; `medium` shows it |
 //! | `distance`, `paths`, `solver` | the computations; `problem`, `prepared` and `heat` are what they share |
-//! | `mesh` | the same on triangle meshes |
+//! | `extraction` | votes, key points and skeletons, as graphs |
+//! | `evaluation` | recall and precision of curves |
+//! | `mesh` | distances, paths and curvature on triangle meshes |
+//! | `api` | all functions in one table |
 //! | `structs`, `handles` | structs that begin with their size and grow at the end, and opaque ones |
 //!
 //! Whatever a caller passes, a function answers with a status and never unwinds, prints, touches
@@ -22,17 +27,27 @@
 #![allow(clippy::doc_markdown, reason = "the comments become those of the C header")]
 #![warn(clippy::undocumented_unsafe_blocks)]
 
+mod api;
+mod array;
 mod buffer;
 mod distance;
+mod evaluation;
+mod extraction;
+mod failure;
 mod handles;
 mod heat;
+mod items;
+mod medium;
 mod mesh;
+mod numbers;
 mod options;
 mod paths;
 mod pixels;
 mod prepared;
 mod problem;
 mod progress;
+mod recipe;
+mod scene;
 mod settings;
 mod solver;
 mod status;
@@ -40,8 +55,13 @@ mod structs;
 mod version;
 mod view;
 
+pub use api::*;
+pub use array::*;
 pub use buffer::*;
 pub use distance::*;
+pub use evaluation::*;
+pub use extraction::*;
+pub use medium::*;
 pub use mesh::*;
 pub use options::*;
 pub use paths::*;

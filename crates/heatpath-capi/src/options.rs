@@ -26,6 +26,29 @@ pub const HP_MEDIUM_GIVEN: u32 = 6;
 /// count; its data may be NULL.
 pub const HP_MEDIUM_GIVEN_TENSOR: u32 = 7;
 
+/// D of eq. (12): heat runs along the directions of the image, see hp_options.directions and
+/// anisotropy.
+pub const HP_MEDIUM_TENSOR: u32 = 8;
+/// k = v^power + floor, with the response v, from 0 to 1, of a filter for tubes: vessels, wires,
+/// fibres; see hp_options.polarity, scales, elongation and anisotropy.
+pub const HP_MEDIUM_VESSELNESS: u32 = 9;
+
+/// Along the axis of least curvature of the grey values: along tubes. The default.
+pub const HP_DIRECTIONS_HESSIAN: u32 = 0;
+/// Along the lines of a texture.
+pub const HP_DIRECTIONS_STRUCTURE: u32 = 1;
+/// Along edges: across the gradient.
+pub const HP_DIRECTIONS_GRADIENT: u32 = 2;
+
+/// Bright tubes for HP_MEDIUM_VESSELNESS, both kinds for HP_MEDIUM_TENSOR. The default.
+pub const HP_POLARITY_DEFAULT: u32 = 0;
+/// Tubes that are brighter than what is around them.
+pub const HP_POLARITY_BRIGHT: u32 = 1;
+/// Tubes that are darker than what is around them.
+pub const HP_POLARITY_DARK: u32 = 2;
+/// Both kinds.
+pub const HP_POLARITY_BOTH: u32 = 3;
+
 /// D = exp(-(|grad f| / contrast)^2). The default.
 pub const HP_EDGE_STOP_EXPONENTIAL: u32 = 1;
 /// D = 1 / (1 + (|grad f| / contrast)^2).
@@ -46,6 +69,11 @@ pub const HP_NORMALIZED: u32 = 1;
 /// sqrt(-4 t log u), Varadhan's formula as it stands, and -sqrt(t) log u of implicit heat: too long
 /// near the sources.
 pub const HP_VARADHAN: u32 = 2;
+/// The heat method: heat flows for a short time, and distances are the function that rises along its
+/// direction. Prepared once, it is fast for many sources; distances are smooth. Not for media of
+/// tensors. It takes some 1.1 kB for each pixel of a picture, and many more for a volume; of the
+/// options of heat time (0, the default, stands for 1 over the mean of the medium) and memory count.
+pub const HP_HEAT_METHOD: u32 = 4;
 /// The exact weighted distance, without heat: the eikonal equation by fast marching, to second order.
 /// What is about heat alone is ignored: iterations, time, step, solver and memory. It takes one
 /// thread.
@@ -76,19 +104,22 @@ pub struct hp_options {
     pub struct_size: u32,
     /// One of HP_MEDIUM_...; HP_MEDIUM_CONDUCTIVITY by default.
     pub medium: u32,
-    /// For conductivity and combined: how strongly unlike grey values are held back. Positive;
-    /// 3 by default.
+    /// For conductivity and combined: how strongly unlike grey values are held back. For vesselness:
+    /// how strongly weak tubes are. Positive. Not a number (NAN), the default, stands for 3, of
+    /// vesselness for 2.
     pub power: f64,
-    /// For conductivity, combined and edges: what keeps the medium above zero. Positive; 0.001 by
-    /// default.
+    /// For conductivity, combined, edges and vesselness: what keeps the medium above zero. Positive.
+    /// Not a number (NAN), the default, stands for 0.001, of vesselness for 0.0001.
     pub floor: f64,
     /// For Perona-Malik and combined: the gradient, in grey values (full range 1) per pixel, at
-    /// which heat is held back. Positive; 0.03 by default.
+    /// which heat is held back. For vesselness: the strength of a tube whose response is 1. Positive.
+    /// Not a number (NAN), the default, stands for 0.03; of vesselness for the strongest tube of the
+    /// image, and for 0.125 if normalize is set.
     pub contrast: f64,
     /// For Perona-Malik and combined: HP_EDGE_STOP_EXPONENTIAL, the default, or
     /// HP_EDGE_STOP_RATIONAL.
     pub edge_stop: u32,
-    /// For all media but uniform, conductivity and given tensor: one of HP_FORM_...
+    /// For Perona-Malik, combined, edges and given: one of HP_FORM_...
     pub form: u32,
     /// For Perona-Malik, combined and edges: the standard deviation, in pixels, of the Gaussian
     /// before the gradient. 0, the default, is none.
@@ -110,7 +141,7 @@ pub struct hp_options {
     /// stands for 0.2 in pictures and 2/15 in volumes; 0 takes a safe fraction of the largest one
     /// that the medium allows. HP_SOLVER_IMPLICIT has none: leave it NAN.
     pub step: f64,
-    /// HP_NORMALIZED, the default, HP_VARADHAN or HP_EIKONAL.
+    /// HP_NORMALIZED, the default, HP_VARADHAN, HP_EIKONAL or HP_HEAT_METHOD.
     pub estimator: u32,
     /// The number of threads, up to 1024; 0, the default, is one per processor, and 1 the calling
     /// thread alone. Results do not depend on it.
@@ -126,7 +157,7 @@ pub struct hp_options {
     /// For conductivity and combined: the grey value f0, from 0 to 1, that the image is compared
     /// with. Not a number (NAN), the default, stands for that of the sources.
     pub reference: f64,
-    /// For HP_SOLVER_IMPLICIT: the most bytes that the factorisation may take. 0, the default,
+    /// For HP_SOLVER_IMPLICIT and HP_HEAT_METHOD: the most bytes that a factorisation may take. 0, the default,
     /// stands for 4 GiB.
     pub memory: u64,
     /// For HP_EIKONAL: the distance, in physical units, beyond which nothing is reached. 0, the
@@ -138,6 +169,30 @@ pub struct hp_options {
     pub tensor: *const f64,
     /// The number of these components: 3 or, in a volume, 6 for each pixel.
     pub tensor_count: u64,
+    /// For HP_MEDIUM_TENSOR: one of HP_DIRECTIONS_...; HP_DIRECTIONS_HESSIAN by default.
+    pub directions: u32,
+    /// For HP_MEDIUM_VESSELNESS, and HP_DIRECTIONS_HESSIAN of HP_MEDIUM_TENSOR: one of
+    /// HP_POLARITY_...
+    pub polarity: u32,
+    /// For HP_MEDIUM_TENSOR and HP_MEDIUM_VESSELNESS: A of eq. (14), heat is (1 + A) / (1 - A) times
+    /// as fast along as across. Up to 0.9998. 0, the default, stands for 0.9 of the former, and for
+    /// none of the latter.
+    pub anisotropy: f64,
+    /// For HP_MEDIUM_VESSELNESS: the half widths of tubes to look for, in multiples of the smallest
+    /// spacing; 2, 3 and 4.5 by default. For HP_MEDIUM_TENSOR: one, the Gaussian before the
+    /// derivatives; 2 by default. Need not be aligned.
+    pub scales: *const f64,
+    /// How many scales there are, up to 64; 0, the default, stands for those above.
+    pub scale_count: u64,
+    /// For HP_MEDIUM_VESSELNESS: how much longer than wide the filter is, from 1 to 10: faint tubes
+    /// stand out, but take ten times as long. 0, the default, stands for 1.
+    pub elongation: f64,
+    /// For all media that see grey values: light is evened out over so many multiples of the smallest
+    /// spacing, the standard deviation of a Gaussian. 0, the default, leaves it as it is.
+    pub normalize: f64,
+    /// By how many multiples of the smallest spacing the walls of a mask are made thicker; 0 by
+    /// default. The rim of a field of view looks like a line otherwise.
+    pub margin: f64,
 }
 
 // SAFETY: integers, floats and pointers of which any can be NULL; an 8-byte number at the end.
@@ -149,9 +204,9 @@ unsafe impl Versioned for hp_options {
         Self {
             struct_size: size_of::<Self>() as u32,
             medium: HP_MEDIUM_CONDUCTIVITY,
-            power: 3.0,
-            floor: 1e-3,
-            contrast: 0.03,
+            power: f64::NAN,
+            floor: f64::NAN,
+            contrast: f64::NAN,
             edge_stop: HP_EDGE_STOP_EXPONENTIAL,
             form: HP_FORM_DEFAULT,
             smoothing: 0.0,
@@ -171,6 +226,14 @@ unsafe impl Versioned for hp_options {
             farthest: 0.0,
             tensor: std::ptr::null(),
             tensor_count: 0,
+            directions: HP_DIRECTIONS_HESSIAN,
+            polarity: HP_POLARITY_DEFAULT,
+            anisotropy: 0.0,
+            scales: std::ptr::null(),
+            scale_count: 0,
+            elongation: 0.0,
+            normalize: 0.0,
+            margin: 0.0,
         }
     }
 }

@@ -3,12 +3,15 @@
 use crate::buffer::hp_buffer;
 use crate::handles::{borrow, free, hand_out};
 use crate::options::hp_options;
+use crate::prepared::Prepared;
 use crate::problem::{Arguments, Problem, read_points};
+use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::{self, Versioned, check_pointer};
 use crate::view;
-use heatpath_core::grid::check_points;
+use heatpath_core::Exec;
 use heatpath_core::grid::path::{Ending, Path, PathOptions};
+use heatpath_core::grid::{Sources, check_points};
 
 /// The path ends at a source.
 pub const HP_ENDED_SOURCE: u32 = 1;
@@ -26,7 +29,7 @@ pub const HP_ENDED_OPEN: u32 = 5;
 pub const HP_ENDED_CLOSED: u32 = 6;
 
 /// The part of the distances in the progress of paths.
-const DISTANCE_SHARE: f64 = 0.9;
+pub(crate) const DISTANCE_SHARE: f64 = 0.9;
 
 /// Paths, one for each end point, in the order of the end points; or isolines.
 ///
@@ -131,15 +134,27 @@ unsafe fn trace<const D: usize>(
     // SAFETY: the caller's promise.
     let problem = unsafe { Problem::<D>::read(arguments)? };
     check_points("end", ends, problem.mask())?;
-    let solved = problem.solve(ends, DISTANCE_SHARE)?;
-    let descent = problem.descent(&solved)?;
+    let (prepared, exec) = problem.prepare(DISTANCE_SHARE)?;
+    trace_prepared(&prepared, &problem.sources, ends, &problem.settings, &exec)
+}
+
+/// The paths from `ends` to the `sources`. `exec` reports the part of the distances.
+pub(crate) fn trace_prepared<const D: usize>(
+    prepared: &Prepared<D>,
+    sources: &Sources<D>,
+    ends: &[[f64; D]],
+    settings: &Settings,
+    exec: &Exec,
+) -> Result<Vec<Traced>, Failure> {
+    let solved = prepared.solve(sources, ends, settings.readout, exec)?;
+    let descent = prepared.descent(sources, &solved)?;
     let mut paths = Vec::with_capacity(ends.len());
     for (number, &end) in ends.iter().enumerate() {
         let traced = number as f64 / ends.len() as f64;
-        problem.progress().check(DISTANCE_SHARE + (1.0 - DISTANCE_SHARE) * traced)?;
+        settings.progress.check(DISTANCE_SHARE + (1.0 - DISTANCE_SHARE) * traced)?;
         paths.push(Traced::new(&descent.path(end, &solved.distances, PathOptions::default())?));
     }
-    problem.progress().check(1.0)?;
+    settings.progress.check(1.0)?;
     Ok(paths)
 }
 

@@ -72,9 +72,31 @@ pub(crate) unsafe fn write<const D: usize>(view: &View<D>, values: &[f64]) {
     }
 }
 
+/// Stores 255 where `values` are true and 0 elsewhere, into the caller's HP_U8 pixels.
+///
+/// # Safety
+/// All pixels that the view describes can be written.
+pub(crate) unsafe fn write_mask<const D: usize>(view: &View<D>, values: &[bool]) {
+    // SAFETY: the caller's promise, and the type that `check_mask` saw.
+    unsafe { write_as(view, values, |value| if value { u8::MAX } else { 0 }) };
+}
+
+/// Refuses a buffer that a mask cannot be written to.
+pub(crate) fn check_mask<const D: usize>(view: &View<D>) -> Result<(), Failure> {
+    view.check_data()?;
+    if view.sample == Sample::U8 {
+        return Ok(());
+    }
+    Err(Failure::new(HP_INVALID_BUFFER, "its type must be HP_U8").of(view.name))
+}
+
 /// # Safety
 /// All pixels that the view describes can be written, and are of type `T`.
-unsafe fn write_as<T, const D: usize>(view: &View<D>, values: &[f64], convert: impl Fn(f64) -> T) {
+unsafe fn write_as<S: Copy, T, const D: usize>(
+    view: &View<D>,
+    values: &[S],
+    convert: impl Fn(S) -> T,
+) {
     for (number, values) in values.chunks_exact(view.shape.size()[0]).enumerate() {
         let row = row(view, number);
         for (x, &value) in values.iter().enumerate() {

@@ -4,21 +4,26 @@ use crate::heat::{PreparedHeat, Readout, Solver};
 use crate::status::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
-use heatpath_core::grid::distance::{DistanceMap, Eikonal, EikonalOptions};
+use heatpath_core::grid::distance::{
+    DistanceMap, Eikonal, EikonalOptions, HeatMethod, HeatMethodOptions,
+};
 use heatpath_core::grid::heat::Heat;
 use heatpath_core::grid::medium::Medium;
+use heatpath_core::grid::path::Descent;
 use std::borrow::Cow;
 
 /// How distances are found.
 #[derive(Clone, Copy)]
-pub(crate) enum Method {
+pub(crate) enum Approach {
     Heat(Solver),
+    HeatMethod(HeatMethodOptions),
     Eikonal { farthest: f64 },
 }
 
 /// A medium in which distances can be found.
 pub(crate) enum Prepared<'a, const D: usize> {
     Heat(PreparedHeat<'a, D>),
+    HeatMethod(Box<HeatMethod<'a, D>>),
     Eikonal { eikonal: Box<Eikonal<'a, D>>, farthest: f64 },
 }
 
@@ -31,12 +36,17 @@ pub(crate) struct Solved<const D: usize> {
 impl<'a, const D: usize> Prepared<'a, D> {
     pub(crate) fn new(
         medium: impl Into<Cow<'a, Medium<D>>>,
-        method: Method,
+        approach: Approach,
         exec: &Exec,
     ) -> Result<Self, Failure> {
-        match method {
-            Method::Heat(solver) => Ok(Self::Heat(PreparedHeat::new(medium.into(), solver, exec)?)),
-            Method::Eikonal { farthest } => {
+        match approach {
+            Approach::Heat(solver) => {
+                Ok(Self::Heat(PreparedHeat::new(medium.into(), solver, exec)?))
+            }
+            Approach::HeatMethod(options) => {
+                Ok(Self::HeatMethod(Box::new(HeatMethod::new(medium, options, exec)?)))
+            }
+            Approach::Eikonal { farthest } => {
                 let eikonal = Box::new(Eikonal::new(medium, exec)?);
                 Ok(Self::Eikonal { eikonal, farthest })
             }
@@ -46,6 +56,7 @@ impl<'a, const D: usize> Prepared<'a, D> {
     pub(crate) fn medium(&self) -> &Medium<D> {
         match self {
             Self::Heat(heat) => heat.medium(),
+            Self::HeatMethod(method) => method.medium(),
             Self::Eikonal { eikonal, .. } => eikonal.medium(),
         }
     }
@@ -53,7 +64,7 @@ impl<'a, const D: usize> Prepared<'a, D> {
     /// How many maps are made together.
     pub(crate) fn round(&self, threads: usize) -> usize {
         match self {
-            Self::Heat(PreparedHeat::Implicit(_)) => 8 * threads,
+            Self::Heat(PreparedHeat::Implicit(_)) | Self::HeatMethod(_) => 8 * threads,
             Self::Heat(PreparedHeat::Explicit(..)) | Self::Eikonal { .. } => 1,
         }
     }
@@ -73,6 +84,9 @@ impl<'a, const D: usize> Prepared<'a, D> {
                 let heat = prepared.flow(sources, readout, !ends.is_empty(), exec)?;
                 Ok(Solved { distances: readout.read(&heat), heat: Some(heat) })
             }
+            Self::HeatMethod(method) => {
+                Ok(Solved { distances: method.distance(sources, exec)?, heat: None })
+            }
             Self::Eikonal { eikonal, farthest } => {
                 let options = EikonalOptions {
                     farthest: *farthest,
@@ -85,6 +99,18 @@ impl<'a, const D: usize> Prepared<'a, D> {
         }
     }
 
+    /// What paths descend.
+    pub(crate) fn descent(
+        &self,
+        sources: &Sources<D>,
+        solved: &Solved<D>,
+    ) -> Result<Descent<'_, D>, Failure> {
+        match &solved.heat {
+            Some(heat) => Ok(Descent::new(heat, self.medium())?),
+            None => Ok(Descent::of_distances(&solved.distances, sources, self.medium())),
+        }
+    }
+
     /// The distances from each of several sources by itself.
     pub(crate) fn solve_each(
         &self,
@@ -94,6 +120,7 @@ impl<'a, const D: usize> Prepared<'a, D> {
     ) -> Result<Vec<DistanceMap<D>>, Failure> {
         match self {
             Self::Heat(prepared) => prepared.distances_each(sources, needed(readout)?, exec),
+            Self::HeatMethod(method) => Ok(method.distances(sources, exec)?),
             Self::Eikonal { .. } => sources
                 .iter()
                 .map(|sources| Ok(self.solve(sources, &[], None, exec)?.distances))
@@ -105,7 +132,7 @@ impl<'a, const D: usize> Prepared<'a, D> {
 fn needed(readout: Option<Readout>) -> Result<Readout, Failure> {
     readout.ok_or_else(|| {
         Failure::argument(
-            "options: estimator is HP_EIKONAL, but the solver was made for heat: \
+            "options: estimator is HP_EIKONAL or HP_HEAT_METHOD, but the solver was made for heat: \
              hp_solver_create() must know it",
         )
     })

@@ -2,42 +2,33 @@
 
 use crate::heat::{Readout, Solver};
 use crate::options::{
-    HP_EDGE_STOP_EXPONENTIAL, HP_EDGE_STOP_RATIONAL, HP_EIKONAL, HP_FORM_DEFAULT,
-    HP_FORM_DIVERGENCE, HP_FORM_POINTWISE, HP_MEDIUM_COMBINED, HP_MEDIUM_CONDUCTIVITY,
-    HP_MEDIUM_EDGES, HP_MEDIUM_GIVEN, HP_MEDIUM_GIVEN_TENSOR, HP_MEDIUM_PERONA_MALIK,
-    HP_MEDIUM_UNIFORM, HP_NORMALIZED, HP_SOLVER_EXPLICIT, HP_SOLVER_IMPLICIT, HP_VARADHAN,
+    HP_EIKONAL, HP_HEAT_METHOD, HP_NORMALIZED, HP_SOLVER_EXPLICIT, HP_SOLVER_IMPLICIT, HP_VARADHAN,
     hp_options,
 };
-use crate::prepared::Method;
+use crate::prepared::Approach;
 use crate::progress::Progress;
+use crate::recipe::{self, Recipe};
 use crate::status::Failure;
 use crate::structs::{self, Versioned};
 use heatpath_core::Exec;
+use heatpath_core::grid::distance::HeatMethodOptions;
 use heatpath_core::grid::heat::{Duration, HeatOptions, ImplicitOptions, Step};
-use heatpath_core::grid::medium::{
-    ConductivityOptions, EdgeStop, EdgesOptions, Form, PeronaMalikOptions,
-};
+use heatpath_core::grid::medium::VesselnessOptions;
 use std::ops::ControlFlow;
-
-/// A medium with its parameters.
-pub(crate) enum Recipe {
-    Uniform,
-    Conductivity(ConductivityOptions),
-    PeronaMalik(PeronaMalikOptions),
-    Combined(ConductivityOptions, PeronaMalikOptions),
-    Edges(EdgesOptions),
-    Given(Form),
-    GivenTensor { components: *const f64, count: u64 },
-}
 
 /// The options, in the engine's words.
 pub(crate) struct Settings {
     pub(crate) recipe: Recipe,
+    /// The medium that shows where a structure begins whose grey values are not known yet.
+    pub(crate) tubes: VesselnessOptions,
     /// What becomes 0 and 1; `None` stands for the natural value.
     pub(crate) range: [Option<f64>; 2],
+    /// Over how many cells light is evened out, and how much thicker walls are; 0 is none.
+    pub(crate) normalize: f64,
+    pub(crate) margin: f64,
     /// The grey value to compare with, if not that of the sources.
     pub(crate) reference: Option<f64>,
-    pub(crate) method: Method,
+    pub(crate) approach: Approach,
     /// How heat is read; `None` for a method without heat.
     pub(crate) readout: Option<Readout>,
     pub(crate) threads: usize,
@@ -56,7 +47,10 @@ impl Settings {
             // SAFETY: the caller's promise.
             unsafe { structs::read(options, "options")? }
         };
-        Self::new(&options).map_err(|failure| failure.of("options"))
+        // SAFETY: the caller promises readable scales.
+        let scales = unsafe { recipe::read_scales(options.scales, options.scale_count) };
+        let new = |scales| Self::new(&options, scales);
+        scales.and_then(new).map_err(|failure| failure.of("options"))
     }
 
     /// The threads, watched.
@@ -67,22 +61,28 @@ impl Settings {
         exec(self.threads, watch)
     }
 
-    fn new(options: &hp_options) -> Result<Self, Failure> {
+    fn new(options: &hp_options, scales: Vec<f64>) -> Result<Self, Failure> {
         let threads = check_threads(options.threads)?;
         if options.reserved != 0 {
             let message = format!("reserved is {}; it must be 0", options.reserved);
             return Err(Failure::argument(message));
         }
         let readout = options.readout()?;
-        let method = match readout {
-            Some(_) => Method::Heat(options.heat()?),
-            None => Method::Eikonal { farthest: options.farthest()? },
+        let approach = match options.estimator {
+            HP_EIKONAL => Approach::Eikonal { farthest: options.farthest()? },
+            HP_HEAT_METHOD => Approach::HeatMethod(options.heat_method()),
+            _ => Approach::Heat(options.heat()?),
         };
+        let [normalize, margin] =
+            [("normalize", options.normalize), ("margin", options.margin)].map(not_negative);
         Ok(Self {
-            recipe: options.recipe()?,
+            tubes: options.tubes(scales.clone())?,
+            recipe: options.recipe(scales)?,
+            normalize: normalize?,
+            margin: margin?,
             range: [options.range_low, options.range_high].map(|v| (!v.is_nan()).then_some(v)),
             reference: options.reference()?,
-            method,
+            approach,
             readout,
             threads,
             progress: Progress::new(options.progress, options.user),
@@ -91,51 +91,6 @@ impl Settings {
 }
 
 impl hp_options {
-    fn recipe(&self) -> Result<Recipe, Failure> {
-        let conductivity = ConductivityOptions { power: self.power, floor: self.floor };
-        let form = self.form()?;
-        let perona_malik = PeronaMalikOptions {
-            contrast: self.contrast,
-            edge_stop: self.edge_stop()?,
-            smoothing: self.smoothing,
-            form: form.unwrap_or_default(),
-        };
-        let edges = EdgesOptions {
-            floor: self.floor,
-            smoothing: self.smoothing,
-            form: form.unwrap_or_default(),
-        };
-        Ok(match self.medium {
-            HP_MEDIUM_UNIFORM => Recipe::Uniform,
-            HP_MEDIUM_CONDUCTIVITY => Recipe::Conductivity(conductivity),
-            HP_MEDIUM_PERONA_MALIK => Recipe::PeronaMalik(perona_malik),
-            HP_MEDIUM_COMBINED => Recipe::Combined(conductivity, perona_malik),
-            HP_MEDIUM_EDGES => Recipe::Edges(edges),
-            HP_MEDIUM_GIVEN => Recipe::Given(form.unwrap_or(Form::Pointwise)),
-            HP_MEDIUM_GIVEN_TENSOR => {
-                Recipe::GivenTensor { components: self.tensor, count: self.tensor_count }
-            }
-            other => return Err(unknown("medium", other, "one of HP_MEDIUM_... (1 to 7)")),
-        })
-    }
-
-    fn form(&self) -> Result<Option<Form>, Failure> {
-        match self.form {
-            HP_FORM_DEFAULT => Ok(None),
-            HP_FORM_DIVERGENCE => Ok(Some(Form::Divergence)),
-            HP_FORM_POINTWISE => Ok(Some(Form::Pointwise)),
-            other => Err(unknown("form", other, "one of HP_FORM_... (0 to 2)")),
-        }
-    }
-
-    fn edge_stop(&self) -> Result<EdgeStop, Failure> {
-        match self.edge_stop {
-            HP_EDGE_STOP_EXPONENTIAL => Ok(EdgeStop::Exponential),
-            HP_EDGE_STOP_RATIONAL => Ok(EdgeStop::Rational),
-            other => Err(unknown("edge_stop", other, "one of HP_EDGE_STOP_... (1 or 2)")),
-        }
-    }
-
     fn reference(&self) -> Result<Option<f64>, Failure> {
         if self.reference.is_infinite() {
             let message = format!("reference is {}; it must be finite or NAN", self.reference);
@@ -148,8 +103,10 @@ impl hp_options {
         match self.estimator {
             HP_NORMALIZED => Ok(Some(Readout::Normalized)),
             HP_VARADHAN => Ok(Some(Readout::Varadhan)),
-            HP_EIKONAL => Ok(None),
-            other => Err(unknown("estimator", other, "HP_NORMALIZED, HP_VARADHAN or HP_EIKONAL")),
+            HP_EIKONAL | HP_HEAT_METHOD => Ok(None),
+            other => {
+                Err(unknown("estimator", other, "one of HP_NORMALIZED to HP_HEAT_METHOD (1 to 4)"))
+            }
         }
     }
 
@@ -171,6 +128,14 @@ impl hp_options {
         }
     }
 
+    fn heat_method(&self) -> HeatMethodOptions {
+        let usual = HeatMethodOptions::default();
+        HeatMethodOptions {
+            time: if self.time == 0.0 { usual.time } else { self.time },
+            memory_limit: number(self.memory, usual.memory_limit),
+        }
+    }
+
     fn implicit(&self) -> Result<ImplicitOptions, Failure> {
         if !self.step.is_nan() {
             return Err(Failure::argument(format!(
@@ -179,10 +144,6 @@ impl hp_options {
             )));
         }
         let usual = ImplicitOptions::default();
-        let number = |given: u64, usual: usize| match given {
-            0 => usual,
-            given => usize::try_from(given).unwrap_or(usize::MAX),
-        };
         Ok(ImplicitOptions {
             time: if self.time == 0.0 { usual.time } else { self.time },
             steps: number(self.iterations, usual.steps),
@@ -210,6 +171,21 @@ impl hp_options {
         };
         Ok(HeatOptions { duration, step, ..HeatOptions::default() })
     }
+}
+
+/// A number of the caller's, of which 0 stands for the usual one.
+pub(crate) fn number(given: u64, usual: usize) -> usize {
+    match given {
+        0 => usual,
+        given => usize::try_from(given).unwrap_or(usize::MAX),
+    }
+}
+
+fn not_negative((field, value): (&str, f64)) -> Result<f64, Failure> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(Failure::argument(format!("{field} is {value}; it must be finite and 0 or more")))
 }
 
 /// The caller's number of threads, if it is possible.
@@ -242,38 +218,31 @@ mod tests {
     use super::*;
     use heatpath_core::grid::distance::EikonalOptions;
 
+    fn settings(options: hp_options) -> Settings {
+        Settings::new(&options, Vec::new()).map_err(|failure| failure.message).unwrap()
+    }
+
     #[test]
     fn the_defaults_are_those_of_the_engine() {
-        let settings = Settings::new(&hp_options::defaults()).map_err(|f| f.message).unwrap();
         assert!(matches!(
-            settings.method,
-            Method::Heat(Solver::Explicit(options)) if options == HeatOptions::default()
+            settings(hp_options::defaults()).approach,
+            Approach::Heat(Solver::Explicit(options)) if options == HeatOptions::default()
         ));
         let implicit = hp_options { solver: HP_SOLVER_IMPLICIT, ..hp_options::defaults() };
         assert!(matches!(
-            implicit.heat(),
-            Ok(Solver::Implicit(options)) if options == ImplicitOptions::default()
+            settings(implicit).approach,
+            Approach::Heat(Solver::Implicit(options)) if options == ImplicitOptions::default()
         ));
         let eikonal = hp_options { estimator: HP_EIKONAL, ..hp_options::defaults() };
-        let settings = Settings::new(&eikonal).map_err(|f| f.message).unwrap();
         let usual = EikonalOptions::<2>::default();
         assert!(matches!(
-            settings.method,
-            Method::Eikonal { farthest } if farthest == usual.farthest
+            settings(eikonal).approach,
+            Approach::Eikonal { farthest } if farthest == usual.farthest
         ));
+        let heat_method = hp_options { estimator: HP_HEAT_METHOD, ..hp_options::defaults() };
         assert!(matches!(
-            settings.recipe,
-            Recipe::Conductivity(options) if options == ConductivityOptions::default()
-        ));
-        let all = hp_options { medium: HP_MEDIUM_COMBINED, ..hp_options::defaults() };
-        assert!(matches!(
-            all.recipe(),
-            Ok(Recipe::Combined(_, options)) if options == PeronaMalikOptions::default()
-        ));
-        let edges = hp_options { medium: HP_MEDIUM_EDGES, ..hp_options::defaults() };
-        assert!(matches!(
-            edges.recipe(),
-            Ok(Recipe::Edges(options)) if options == EdgesOptions::default()
+            settings(heat_method).approach,
+            Approach::HeatMethod(options) if options == HeatMethodOptions::default()
         ));
     }
 }

@@ -3,16 +3,18 @@
 use crate::buffer::hp_buffer;
 use crate::handles::{borrow, free, hand_out};
 use crate::options::hp_options;
+use crate::paths::{DISTANCE_SHARE, Traced, hp_paths, trace_prepared};
 use crate::pixels;
 use crate::prepared::Prepared;
-use crate::problem::{read_medium, read_points};
+use crate::problem::read_points;
+use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::view::{self, View};
-use heatpath_core::grid::Sources;
+use heatpath_core::grid::{Sources, check_points};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A medium prepared for distances from any sources.
+/// A medium prepared for distances and paths from any sources.
 ///
 /// Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
@@ -72,11 +74,12 @@ unsafe fn prepare<const D: usize>(
     // SAFETY: the caller's promise.
     let (settings, medium) = unsafe {
         let settings = Settings::read(options)?;
-        let medium = read_medium(image, mask, &settings)?;
+        let image = View::read(image, "image")?;
+        let medium = Scene::read(&image, mask, &settings)?.medium(&settings.recipe, &[])?;
         (settings, medium)
     };
     let exec = settings.exec(|finished| settings.progress.report(finished))?;
-    let prepared = Prepared::new(medium, settings.method, &exec)?;
+    let prepared = Prepared::new(medium, settings.approach, &exec)?;
     settings.progress.check(1.0)?;
     Ok(prepared)
 }
@@ -166,6 +169,66 @@ unsafe fn write_maps<const D: usize>(
         }
     }
     progress.check(1.0)
+}
+
+/// Traces the minimal path from each end point to a source, as hp_paths_create() does, in a medium that
+/// was prepared once.
+///
+/// sources, ends: source_count and end_count points, as for hp_paths_create().
+///
+/// options: as for hp_solver_distances().
+///
+/// paths: receives the paths, to be freed with hp_paths_free(), or NULL if anything but HP_OK is
+/// returned.
+///
+/// # Safety
+/// `solver` is NULL or comes from hp_solver_create() and was not freed yet. The structs are as
+/// large as their `struct_size` says, and the points are as large as their description.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn hp_solver_paths_create(
+    solver: *const hp_solver,
+    sources: *const f64,
+    source_count: u64,
+    ends: *const f64,
+    end_count: u64,
+    options: *const hp_options,
+    paths: *mut *mut hp_paths,
+) -> hp_status {
+    let make = || {
+        // SAFETY: the caller's promise.
+        let (medium, settings) =
+            unsafe { (&borrow(solver, "solver")?.medium, Settings::read(options)?) };
+        // SAFETY: the caller's promise.
+        let paths = unsafe {
+            match medium {
+                AnyDimension::Two(prepared) => {
+                    let points = read_points(sources, source_count, "sources")?;
+                    trace(prepared, &points, &read_points(ends, end_count, "ends")?, &settings)?
+                }
+                AnyDimension::Three(prepared) => {
+                    let points = read_points(sources, source_count, "sources")?;
+                    trace(prepared, &points, &read_points(ends, end_count, "ends")?, &settings)?
+                }
+            }
+        };
+        Ok(hp_paths { paths })
+    };
+    // SAFETY: the caller promises room for a pointer.
+    guard(|| unsafe { hand_out(paths, "paths", make) })
+}
+
+fn trace<const D: usize>(
+    prepared: &Prepared<D>,
+    sources: &[[f64; D]],
+    ends: &[[f64; D]],
+    settings: &Settings,
+) -> Result<Vec<Traced>, Failure> {
+    let mask = prepared.medium().mask();
+    let sources = Sources::new(sources, mask)?;
+    check_points("end", ends, mask)?;
+    let progress = &settings.progress;
+    let exec = settings.exec(|finished| progress.report(DISTANCE_SHARE * finished))?;
+    trace_prepared(prepared, &sources, ends, settings, &exec)
 }
 
 /// Frees a solver; NULL is fine.

@@ -1,10 +1,5 @@
 //! What functions return, and the message that goes with it.
 
-use heatpath_core::exec::{Cancelled, ThreadsError};
-use heatpath_core::grid::distance::EikonalError;
-use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
-use heatpath_core::grid::medium::MediumError;
-use heatpath_core::grid::{NotFinite, PointError, ShapeError};
 use std::any::Any;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
@@ -42,6 +37,8 @@ pub const HP_RANGE: i32 = 11;
 /// Points and faces are no mesh: there is no face, a face uses a vertex that does not exist, or a
 /// coordinate is infinite or not a number; or faces lie in each other, and HP_MESH_EXACT does not end.
 pub const HP_INVALID_MESH: i32 = 12;
+/// There is nothing to find: the image shows no structure.
+pub const HP_NO_ANSWER: i32 = 13;
 
 /// Why a call failed.
 #[derive(Debug)]
@@ -62,98 +59,6 @@ impl Failure {
     /// The same failure, its message beginning with the name of what it is about.
     pub(crate) fn of(self, name: &str) -> Self {
         Self { message: format!("{name}: {}", self.message), ..self }
-    }
-}
-
-impl From<ShapeError> for Failure {
-    fn from(error: ShapeError) -> Self {
-        Self::new(HP_INVALID_BUFFER, error.to_string())
-    }
-}
-
-impl From<NotFinite> for Failure {
-    fn from(error: NotFinite) -> Self {
-        Self::new(HP_INVALID_IMAGE, error.to_string())
-    }
-}
-
-impl From<PointError> for Failure {
-    fn from(error: PointError) -> Self {
-        Self::new(HP_INVALID_POINT, error.to_string())
-    }
-}
-
-impl From<ThreadsError> for Failure {
-    fn from(error: ThreadsError) -> Self {
-        Self::new(HP_NO_THREADS, error.to_string())
-    }
-}
-
-impl From<MediumError> for Failure {
-    fn from(error: MediumError) -> Self {
-        let status = match error {
-            MediumError::NotFinite(_)
-            | MediumError::GivenValue { .. }
-            | MediumError::GivenTensor { .. } => HP_INVALID_IMAGE,
-            MediumError::Cancelled(cancelled) => return cancelled.into(),
-            MediumError::MaskSize { .. } => HP_INVALID_BUFFER,
-            MediumError::Parameter { .. } | MediumError::Smoothing(_) => HP_INVALID_ARGUMENT,
-        };
-        Self::new(status, error.to_string())
-    }
-}
-
-impl From<Cancelled> for Failure {
-    fn from(error: Cancelled) -> Self {
-        Self::new(HP_CANCELLED, format!("{error} by the progress callback"))
-    }
-}
-
-impl From<NoExposure> for Failure {
-    fn from(error: NoExposure) -> Self {
-        Self::new(HP_PANIC, error.to_string())
-    }
-}
-
-impl From<HeatError> for Failure {
-    fn from(error: HeatError) -> Self {
-        let status = match error {
-            HeatError::StepTooLarge { .. } => HP_UNSTABLE_STEP,
-            HeatError::Range => HP_RANGE,
-            HeatError::Cancelled(cancelled) => return cancelled.into(),
-            HeatError::Step(_) | HeatError::Time(_) | HeatError::Iterations(_) => {
-                HP_INVALID_ARGUMENT
-            }
-        };
-        Self::new(status, error.to_string())
-    }
-}
-
-impl From<ImplicitError> for Failure {
-    fn from(error: ImplicitError) -> Self {
-        let status = match error {
-            ImplicitError::TooLarge(_) => HP_OUT_OF_MEMORY,
-            ImplicitError::Cancelled(cancelled) => return cancelled.into(),
-            ImplicitError::Time(_) | ImplicitError::TooLong { .. } | ImplicitError::Steps(_) => {
-                HP_INVALID_ARGUMENT
-            }
-            ImplicitError::Linear(_) => HP_RANGE,
-        };
-        Self::new(status, error.to_string())
-    }
-}
-
-impl From<EikonalError> for Failure {
-    fn from(error: EikonalError) -> Self {
-        let status = match error {
-            EikonalError::TooLarge { .. } => HP_UNSUPPORTED,
-            EikonalError::InitialCount { .. }
-            | EikonalError::Initial { .. }
-            | EikonalError::Farthest(_) => HP_INVALID_ARGUMENT,
-            EikonalError::Target(error) => return error.into(),
-            EikonalError::Cancelled(cancelled) => return cancelled.into(),
-        };
-        Self::new(status, error.to_string())
     }
 }
 
@@ -212,6 +117,7 @@ fn name_of(status: hp_status) -> &'static CStr {
         HP_PANIC => c"HP_PANIC",
         HP_RANGE => c"HP_RANGE",
         HP_INVALID_MESH => c"HP_INVALID_MESH",
+        HP_NO_ANSWER => c"HP_NO_ANSWER",
         _ => c"unknown status",
     }
 }
@@ -233,6 +139,23 @@ mod tests {
     }
 
     #[test]
+    fn a_panic_inside_the_engine_becomes_a_status() {
+        use heatpath_core::Exec;
+        use heatpath_core::grid::heat::{Explicit, HeatOptions};
+        use heatpath_core::grid::{Shape, Sources, medium};
+
+        let medium = medium::uniform(Shape::new([64, 64]).unwrap());
+        let sources = Sources::new(&[[5.0, 5.0]], medium.mask()).unwrap();
+        let explicit = Explicit::new(&medium, HeatOptions::default()).unwrap();
+        let exec = Exec::new(3).unwrap();
+        let injected = exec.with_watch(|finished| panic!("injected at {finished:.0}"));
+        assert_eq!(guard(|| Ok(explicit.flow(&sources, &injected).map(drop)?)), HP_PANIC);
+        assert!(message().contains("injected at"), "{}", message());
+        let single = Exec::single_threaded();
+        assert_eq!(guard(|| Ok(explicit.flow(&sources, &single).map(drop)?)), HP_OK);
+    }
+
+    #[test]
     fn a_message_is_one_line_and_survives_success() {
         assert_eq!(guard(|| Err(Failure::argument("a\nb\0c"))), HP_INVALID_ARGUMENT);
         assert_eq!(guard(|| Ok(())), HP_OK);
@@ -243,7 +166,7 @@ mod tests {
 
     #[test]
     fn numbers_are_for_ever() {
-        let names: Vec<_> = (0..14).map(|status| name_of(status).to_str().unwrap()).collect();
+        let names: Vec<_> = (0..15).map(|status| name_of(status).to_str().unwrap()).collect();
         assert_eq!(
             names,
             [
@@ -260,6 +183,7 @@ mod tests {
                 "HP_PANIC",
                 "HP_RANGE",
                 "HP_INVALID_MESH",
+                "HP_NO_ANSWER",
                 "unknown status",
             ]
         );

@@ -6,15 +6,22 @@
 use cbindgen::{Builder, Config, DocumentationLength, DocumentationStyle, Language};
 use std::path::{Path, PathBuf};
 
-const MODULES: [&str; 15] = [
+const MODULES: [&str; 23] = [
     "version",
     "status",
     "buffer",
     "options",
     "distance",
+    "medium",
     "paths",
     "solver",
-    "mesh/array",
+    "extraction/options",
+    "extraction/graph",
+    "extraction/votes",
+    "extraction/key_points",
+    "extraction/skeleton",
+    "array",
+    "evaluation",
     "mesh/options",
     "mesh/report",
     "mesh/points",
@@ -22,6 +29,7 @@ const MODULES: [&str; 15] = [
     "mesh/solver",
     "mesh/paths",
     "mesh/curvature",
+    "api",
 ];
 
 const TITLE: &str = "\
@@ -31,10 +39,9 @@ const TITLE: &str = "\
  * C99 and C++; link with libheatpath. Generated from crates/heatpath-capi, do not edit.
  *
  * Every function that can fail returns an hp_status, and hp_last_error_message() says what was
- * wrong. All memory stays the caller's, except for hp_paths, hp_solver, hp_mesh and
- * hp_mesh_solver. Nothing is printed, and no state of
- * the process is changed; threads are started anew for a call and end before it returns.
- * All functions may be called from any thread.
+ * wrong. All memory stays the caller's, except for what the functions that end in _create hand out.
+ * Nothing is printed, and no state of the process is changed; threads are started anew for a call and
+ * end before it returns. All functions may be called from any thread.
  *
  * Structs begin with their size. Fill them with the _init function, or set struct_size where there
  * is none: a program then works with later versions of the library, whose structs may be longer.
@@ -65,7 +72,7 @@ fn config() -> Config {
         ..Config::default()
     };
     // Opaque types: only pointers to them are used.
-    let opaque = ["hp_paths", "hp_solver", "hp_mesh", "hp_mesh_solver"];
+    let opaque = ["hp_paths", "hp_solver", "hp_graph", "hp_mesh", "hp_mesh_solver", "hp_api"];
     config.export.include.extend(opaque.map(str::to_owned));
     config
 }
@@ -77,7 +84,47 @@ fn generated() -> String {
     });
     let mut header = Vec::new();
     builder.generate().expect("the sources can be parsed").write(&mut header);
-    tidied(&String::from_utf8(header).expect("the sources are UTF-8"))
+    with_api(&tidied(&String::from_utf8(header).expect("the sources are UTF-8")))
+}
+
+/// The header with the members of `hp_api`: a pointer to each function, in the order of the table.
+fn with_api(header: &str) -> String {
+    let members = heatpath::API.map(|name| pointer(header, name)).join("");
+    let table = format!(
+        "struct hp_api {{\n  /** The size of the table, in bytes. */\n  uint32_t struct_size;\n  \
+         /** The HP_ABI_VERSION of the library. */\n  uint32_t abi;\n{members}}};\n"
+    );
+    let end = "#ifdef __cplusplus\n}  // extern";
+    assert_eq!(header.matches(end).count(), 1);
+    header.replace(end, &format!("{table}\n{end}"))
+}
+
+/// The declaration of a function as that of a pointer to it, without the `hp_` of its name.
+fn pointer(header: &str, name: &str) -> String {
+    let call = format!("{name}(");
+    let is_declaration =
+        |line: &&str| line.contains(&call) && line.starts_with(|c: char| c.is_ascii_alphabetic());
+    let line = header.lines().find(is_declaration);
+    let line = line.unwrap_or_else(|| panic!("{name} is in the table but not in the header"));
+    let start = header.find(line).expect("a line of the header");
+    let length = header[start..].find(';').expect("a declaration ends");
+    let declaration = header[start..start + length].replace('\n', " ");
+    let short = name.trim_start_matches("hp_");
+    let declaration = declaration.replace(&call, &format!("(*{short})("));
+    wrapped(&declaration.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// A member on as many lines as it needs, broken between arguments.
+fn wrapped(member: &str) -> String {
+    let (mut lines, mut line) = (String::new(), String::new());
+    for argument in format!("  {member};\n").split_inclusive(", ") {
+        if line.len() + argument.trim_end().len() > 100 {
+            lines.push_str(&format!("{}\n", line.trim_end()));
+            line = " ".repeat(6);
+        }
+        line.push_str(argument);
+    }
+    lines + &line
 }
 
 /// Turns what is Rust's about comments into C's: `# Safety` headings, back quotes, and three lines

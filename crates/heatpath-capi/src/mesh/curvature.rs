@@ -1,10 +1,10 @@
 //! The curvature of meshes.
 
-use super::array::hp_array;
 use super::handle::{hp_mesh, surface_of};
-use super::items::Items;
 use super::options::hp_mesh_options;
 use super::settings::Settings;
+use crate::array::hp_array;
+use crate::items::Items;
 use crate::status::{Failure, guard, hp_status};
 use heatpath_core::mesh::Curvature;
 

@@ -1,12 +1,12 @@
 //! Meshes.
 
-use super::array::hp_array;
-use super::items::Items;
 use super::options::hp_mesh_options;
 use super::report::hp_mesh_report;
 use super::settings::Settings;
 use super::surface::Surface;
+use crate::array::hp_array;
 use crate::handles::{borrow, free, hand_out};
+use crate::items::Items;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs;
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! What makes ways short on a mesh.
 
-use super::array::hp_array;
-use super::items::Items;
-use super::numbers::reals;
 use super::settings::{Recipe, Settings};
 use super::surface::Surface;
+use crate::array::hp_array;
+use crate::items::Items;
+use crate::numbers::reals;
 use crate::status::Failure;
 use heatpath_core::mesh::{Curvature, Medium};
 use std::sync::Arc;

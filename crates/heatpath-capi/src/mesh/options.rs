@@ -1,6 +1,6 @@
 //! What to compute on a mesh and how.
 
-use super::array::hp_array;
+use crate::array::hp_array;
 use crate::options::hp_progress;
 use crate::status::{guard, hp_status};
 use crate::structs::{self, Versioned};

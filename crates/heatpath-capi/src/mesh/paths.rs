@@ -1,14 +1,14 @@
 //! Curves on meshes: paths, paths through points, isolines.
 
-use super::array::hp_array;
 use super::handle::{hp_mesh, surface_of};
-use super::numbers::reals;
 use super::options::hp_mesh_options;
 use super::points::{hp_surface_points, read_points, read_sources};
 use super::prepared::Prepared;
 use super::settings::Settings;
 use super::solver::hp_mesh_solver;
+use crate::array::hp_array;
 use crate::handles::{borrow, hand_out};
+use crate::numbers::reals;
 use crate::paths::{
     HP_ENDED_CLOSED, HP_ENDED_NOT_REACHED, HP_ENDED_OPEN, HP_ENDED_SOURCE, HP_ENDED_STEP_LIMIT,
     HP_ENDED_UNREACHABLE, Traced, hp_path_info, hp_paths,

@@ -1,9 +1,9 @@
 //! Points on a mesh.
 
-use super::array::hp_array;
-use super::items::Items;
-use super::numbers::{integers, reals};
 use super::surface::{Surface, ranges};
+use crate::array::hp_array;
+use crate::items::Items;
+use crate::numbers::{integers, reals};
 use crate::status::{Failure, HP_INVALID_BUFFER, HP_INVALID_POINT, guard, hp_status};
 use crate::structs::{self, Versioned};
 use heatpath_core::mesh::{Locator, Source, Sources, SurfacePoint};

@@ -1,12 +1,12 @@
 //! The caller's options in the engine's words, checked.
 
-use super::array::hp_array;
 use super::options::{
     HP_BEND_BOTH, HP_BEND_CONCAVE, HP_BEND_CONVEX, HP_CURVATURE_LEAST_SQUARES,
     HP_CURVATURE_NORMAL_CYCLES, HP_MESH_AUTO, HP_MESH_CREASE, HP_MESH_CURVATURE, HP_MESH_EIKONAL,
     HP_MESH_EXACT, HP_MESH_HEAT, HP_MESH_METRIC, HP_MESH_SCALARS, HP_MESH_SLOWNESS,
     HP_MESH_SPEED_SQ, HP_MESH_UNIFORM, hp_mesh_options,
 };
+use crate::array::hp_array;
 use crate::progress::Progress;
 use crate::settings::{check_threads, exec, unknown};
 use crate::status::Failure;

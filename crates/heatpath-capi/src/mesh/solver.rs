@@ -1,14 +1,14 @@
 //! Distances on meshes, prepared for many sources.
 
-use super::array::hp_array;
 use super::handle::{hp_mesh, surface_of};
-use super::items::Items;
 use super::medium::CURVATURE_SHARE;
 use super::options::{HP_MESH_EIKONAL, HP_MESH_EXACT, HP_MESH_HEAT, hp_mesh_options};
 use super::points::{hp_surface_points, read_sets};
 use super::prepared::Prepared;
 use super::settings::{Recipe, Settings};
+use crate::array::hp_array;
 use crate::handles::{borrow, free, hand_out};
+use crate::items::Items;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::check_pointer;
 use heatpath_core::mesh::distance::{DistanceMap, NO_LABEL, NOT_REACHED};

@@ -1,9 +1,9 @@
 //! A mesh and how its caller counts vertices.
 
-use super::array::hp_array;
-use super::items::Items;
-use super::numbers::integers;
 use super::report::hp_mesh_report;
+use crate::array::hp_array;
+use crate::items::Items;
+use crate::numbers::integers;
 use crate::status::{Failure, HP_INVALID_BUFFER, HP_INVALID_MESH, HP_INVALID_POINT};
 use heatpath_core::mesh::clean::{CleanOptions, CleanReport, Cleaned, Soup, clean};
 use heatpath_core::mesh::{MeshError, PointError, SurfacePoint, TriMesh};

@@ -1,8 +1,8 @@
 //! The numbers of the caller's lists, read and written.
 
-use super::array::{HP_I64, HP_U64, hp_array};
-use super::items::{Items, invalid};
+use crate::array::{HP_I64, HP_U64, hp_array};
 use crate::buffer::{HP_F32, HP_I8, HP_I16, HP_I32, HP_U8, HP_U16, HP_U32};
+use crate::items::{Items, invalid};
 use crate::status::{Failure, HP_OUT_OF_MEMORY};
 
 impl<const N: usize> Items<N> {

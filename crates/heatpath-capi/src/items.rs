@@ -1,6 +1,6 @@
 //! The caller's lists of numbers, checked.
 
-use super::array::{HP_I64, HP_U64, hp_array};
+use crate::array::{HP_I64, HP_U64, hp_array};
 use crate::buffer::{HP_F32, HP_F64, HP_I8, HP_I16, HP_I32, HP_U8, HP_U16, HP_U32};
 use crate::status::{Failure, HP_INVALID_BUFFER};
 use crate::structs;
@@ -8,10 +8,10 @@ use crate::structs;
 /// A list whose description makes sense: items of `N` numbers each, in one or more rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Items<const N: usize> {
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     data: *mut u8,
-    pub(super) kind: u32,
-    pub(super) count: usize,
+    pub(crate) kind: u32,
+    pub(crate) count: usize,
     /// The bytes from an item to the next.
     stride: isize,
     /// The bytes from a row to the next.
@@ -29,7 +29,7 @@ fn bytes_of(kind: u32) -> Option<usize> {
     }
 }
 
-pub(super) fn invalid(message: impl Into<String>) -> Failure {
+pub(crate) fn invalid(message: impl Into<String>) -> Failure {
     Failure::new(HP_INVALID_BUFFER, message)
 }
 
@@ -152,7 +152,7 @@ impl<const N: usize> Items<N> {
     }
 
     /// Where an item lies.
-    pub(super) fn item(&self, row: usize, place: usize) -> *mut u8 {
+    pub(crate) fn item(&self, row: usize, place: usize) -> *mut u8 {
         let offset = self.row_stride * row as isize + self.stride * place as isize;
         self.data.wrapping_offset(offset)
     }

@@ -1,0 +1,781 @@
+/* heatpath for C++17: a thin layer over heatpath.h that frees what it owns and throws what fails.
+ *
+ * Nothing is copied but results: pixels, points and faces are described where they are. All of it is
+ * in this file; link with libheatpath.
+ *
+ * Include OpenCV's <opencv2/core.hpp>, VTK's <vtkImageData.h>, <vtkPolyData.h> or ITK's <itkImage.h>
+ * before this file, and heatpath::buffer() takes their images, heatpath::mesh() their meshes.
+ *
+ *     heatpath::Options options;
+ *     options.medium = HP_MEDIUM_VESSELNESS;
+ *     auto paths = heatpath::paths<2>(heatpath::buffer(picture), {{300, 411}}, {{1230, 303}}, options);
+ */
+#ifndef HEATPATH_HPP
+#define HEATPATH_HPP
+
+#include "heatpath.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace heatpath {
+
+/** What is thrown if a call fails. */
+class Error : public std::runtime_error {
+public:
+    explicit Error(hp_status status)
+        : std::runtime_error(hp_last_error_message()), status_(status)
+    {
+    }
+
+    /** One of HP_..., never HP_OK. */
+    hp_status status() const noexcept { return status_; }
+
+    /** The name of the status, such as "HP_INVALID_POINT". */
+    const char *name() const noexcept { return hp_status_name(status_); }
+
+private:
+    hp_status status_;
+};
+
+/** Throws an Error unless the status is HP_OK. */
+inline void check(hp_status status)
+{
+    if (status != HP_OK)
+        throw Error(status);
+}
+
+/** The HP_ constant for numbers of type T. */
+template <class T>
+constexpr std::uint32_t type_of()
+{
+    using U = std::remove_cv_t<T>;
+    static_assert(std::is_arithmetic_v<U> && !std::is_same_v<U, bool>, "an integer or a float");
+    if constexpr (std::is_floating_point_v<U>) {
+        static_assert(sizeof(U) == 4 || sizeof(U) == 8, "float or double");
+        return sizeof(U) == 4 ? HP_F32 : HP_F64;
+    } else {
+        constexpr bool is_signed = std::is_signed_v<U>;
+        switch (sizeof(U)) {
+        case 1: return is_signed ? HP_I8 : HP_U8;
+        case 2: return is_signed ? HP_I16 : HP_U16;
+        case 4: return is_signed ? HP_I32 : HP_U32;
+        default: return is_signed ? HP_I64 : HP_U64;
+        }
+    }
+}
+
+/** A point in pixel coordinates, or in space. */
+template <std::size_t N>
+using Point = std::array<double, N>;
+
+/** Points of an image (N = 2), or of a volume or surface (N = 3). */
+template <std::size_t N>
+using Points = std::vector<Point<N>>;
+
+/** Described pixels, see hp_buffer; the fields can be changed. */
+struct Buffer : hp_buffer {
+    Buffer() { check(hp_buffer_init(this, sizeof(hp_buffer))); }
+
+    /** Pixels without gaps: columns, rows and, of a volume, slices. Input is only read. */
+    template <class T>
+    Buffer(T *pixels, std::initializer_list<std::size_t> sizes) : Buffer()
+    {
+        data = const_cast<std::remove_const_t<T> *>(pixels);
+        type = type_of<T>();
+        dimension = static_cast<std::uint32_t>(sizes.size());
+        std::size_t axis = 0;
+        for (std::size_t n : sizes)
+            if (axis < 3)
+                size[axis++] = n;
+    }
+
+    std::size_t pixels() const { return size[0] * size[1] * (dimension == 3 ? size[2] : 1); }
+};
+
+namespace detail {
+
+/** Calls the caller's function, and keeps what it throws until the library has returned. */
+struct Watch {
+    std::function<bool(double)> progress;
+    std::exception_ptr thrown;
+
+    static int report(double finished, void *user) noexcept
+    {
+        auto *watch = static_cast<Watch *>(user);
+        try {
+            return watch->progress(finished) ? 0 : 1;
+        } catch (...) {
+            watch->thrown = std::current_exception();
+            return 1;
+        }
+    }
+};
+
+/** Calls the library with options whose progress may throw. */
+template <class Options, class Call>
+void run(const Options &options, Call call)
+{
+    auto plain = static_cast<typename Options::Plain>(options);
+    Watch watch{options.on_progress, nullptr};
+    if (watch.progress) {
+        plain.progress = &Watch::report;
+        plain.user = &watch;
+    }
+    const hp_status status = call(&plain);
+    if (watch.thrown)
+        std::rethrow_exception(watch.thrown);
+    check(status);
+}
+
+template <class Handle, void (*free_handle)(Handle *)>
+struct Free {
+    void operator()(Handle *handle) const noexcept { free_handle(handle); }
+};
+
+template <class Handle, void (*free_handle)(Handle *)>
+using Owned = std::unique_ptr<Handle, Free<Handle, free_handle>>;
+
+using PathsHandle = Owned<hp_paths, hp_paths_free>;
+using GraphHandle = Owned<hp_graph, hp_graph_free>;
+
+template <std::size_t N>
+const double *coordinates(const Points<N> &points)
+{
+    return points.empty() ? nullptr : points.front().data();
+}
+
+inline const hp_buffer *optional(const Buffer &buffer)
+{
+    return buffer.data ? &buffer : nullptr;
+}
+
+inline void check_dimension(const Buffer &image, std::size_t of_points)
+{
+    if (image.dimension != of_points)
+        throw std::invalid_argument("heatpath: points have " + std::to_string(of_points) +
+                                    " coordinates, but the image has " +
+                                    std::to_string(image.dimension) + " axes");
+}
+
+} // namespace detail
+
+/** What to compute and how, see hp_options. */
+struct Options : hp_options {
+    using Plain = hp_options;
+    Options() { check(hp_options_init(this, sizeof(hp_options))); }
+
+    /** Is told the finished part, 0 to 1; false cancels (an Error of HP_CANCELLED), and what it
+     * throws is thrown on. */
+    std::function<bool(double)> on_progress;
+};
+
+/** How votes find curves, see hp_vote_options. */
+struct VoteOptions : hp_vote_options {
+    VoteOptions() { check(hp_vote_options_init(this, sizeof(hp_vote_options))); }
+};
+
+/** How key points find curves, see hp_key_point_options. */
+struct KeyPointOptions : hp_key_point_options {
+    KeyPointOptions() { check(hp_key_point_options_init(this, sizeof(hp_key_point_options))); }
+};
+
+/** A path from an end to a source; info tells how it ended. */
+template <std::size_t N>
+struct Path {
+    hp_path_info info;
+    Points<N> points;
+
+    bool arrived() const { return info.ending == HP_ENDED_SOURCE; }
+};
+
+/** Curves between nodes. */
+template <std::size_t N>
+struct Graph {
+    struct Branch {
+        hp_graph_branch info;
+        Points<N> points;
+        std::vector<double> radii;
+    };
+
+    hp_graph_info info;
+    std::vector<hp_graph_node> nodes;
+    std::vector<Branch> branches;
+    Points<N> sources;
+};
+
+namespace detail {
+
+template <std::size_t N>
+std::vector<Path<N>> collect(const hp_paths *handle)
+{
+    std::uint64_t count = 0;
+    check(hp_paths_count(handle, &count));
+    std::vector<Path<N>> paths(count);
+    for (std::uint64_t i = 0; i < count; i++) {
+        paths[i].info.struct_size = sizeof(hp_path_info);
+        check(hp_paths_info(handle, i, &paths[i].info));
+        paths[i].points.resize(paths[i].info.point_count);
+        check(hp_paths_points(handle, i, paths[i].points.front().data(), paths[i].points.size()));
+    }
+    return paths;
+}
+
+template <std::size_t N>
+Graph<N> collect(const hp_graph *handle)
+{
+    Graph<N> graph;
+    graph.info.struct_size = sizeof(hp_graph_info);
+    check(hp_graph_describe(handle, &graph.info));
+    graph.nodes.resize(graph.info.node_count);
+    for (std::uint64_t i = 0; i < graph.info.node_count; i++) {
+        graph.nodes[i].struct_size = sizeof(hp_graph_node);
+        check(hp_graph_node_at(handle, i, &graph.nodes[i]));
+    }
+    graph.branches.resize(graph.info.branch_count);
+    for (std::uint64_t i = 0; i < graph.info.branch_count; i++) {
+        auto &branch = graph.branches[i];
+        branch.info.struct_size = sizeof(hp_graph_branch);
+        check(hp_graph_branch_at(handle, i, &branch.info));
+        branch.points.resize(branch.info.point_count);
+        branch.radii.resize(branch.info.point_count);
+        check(hp_graph_branch_points(handle, i, branch.points.front().data(), branch.radii.data(),
+                                     branch.points.size()));
+    }
+    graph.sources.resize(graph.info.source_count);
+    if (!graph.sources.empty())
+        check(hp_graph_sources(handle, graph.sources.front().data(), graph.sources.size()));
+    return graph;
+}
+
+} // namespace detail
+
+/** Writes the distance of every pixel from the nearest source; see hp_distance(). */
+template <std::size_t N>
+void distance(const Buffer &image, const Points<N> &sources, const Buffer &result,
+              const Options &options = {}, const Buffer &mask = {})
+{
+    detail::check_dimension(image, N);
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_distance(&image, detail::optional(mask), detail::coordinates(sources),
+                           sources.size(), plain, &result);
+    });
+}
+
+/** The distance of every pixel from the nearest source, row by row. */
+template <std::size_t N>
+std::vector<double> distance(const Buffer &image, const Points<N> &sources, const Options &options = {},
+                             const Buffer &mask = {})
+{
+    std::vector<double> distances(image.pixels());
+    Buffer result(distances.data(), {image.size[0], image.size[1]});
+    result.dimension = image.dimension;
+    result.size[2] = image.size[2];
+    distance(image, sources, result, options, mask);
+    return distances;
+}
+
+/** Writes the medium that the options make of an image; see hp_medium(). */
+template <std::size_t N>
+void medium(const Buffer &image, const Points<N> &sources, const Buffer &result,
+            const Options &options = {}, const Buffer &mask = {})
+{
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_medium(&image, detail::optional(mask), detail::coordinates(sources),
+                         sources.size(), plain, &result);
+    });
+}
+
+/** The minimal path from each end to a source, in the order of the ends; see hp_paths_create(). */
+template <std::size_t N>
+std::vector<Path<N>> paths(const Buffer &image, const Points<N> &sources, const Points<N> &ends,
+                           const Options &options = {}, const Buffer &mask = {})
+{
+    detail::check_dimension(image, N);
+    hp_paths *handle = nullptr;
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_paths_create(&image, detail::optional(mask), detail::coordinates(sources),
+                               sources.size(), detail::coordinates(ends), ends.size(), plain,
+                               &handle);
+    });
+    return detail::collect<N>(detail::PathsHandle(handle).get());
+}
+
+/** A medium prepared for distances and paths from any sources; threads may share it. */
+class Solver {
+public:
+    explicit Solver(const Buffer &image, const Options &options, const Buffer &mask = {})
+        : image_(image)
+    {
+        hp_solver *handle = nullptr;
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_create(&image, detail::optional(mask), plain, &handle);
+        });
+        handle_.reset(handle);
+    }
+
+    /** One map for each source, the first one in result; see hp_solver_distances(). */
+    template <std::size_t N>
+    void distances(const Points<N> &sources, const Buffer &result, const Options &options = {},
+                   std::int64_t map_stride = 0) const
+    {
+        detail::check_dimension(image_, N);
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_distances(get(), detail::coordinates(sources), sources.size(), plain,
+                                       &result, map_stride);
+        });
+    }
+
+    /** As heatpath::paths(). */
+    template <std::size_t N>
+    std::vector<Path<N>> paths(const Points<N> &sources, const Points<N> &ends, const Options &options = {}) const
+    {
+        detail::check_dimension(image_, N);
+        hp_paths *handle = nullptr;
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_paths_create(get(), detail::coordinates(sources), sources.size(),
+                                          detail::coordinates(ends), ends.size(), plain, &handle);
+        });
+        return detail::collect<N>(detail::PathsHandle(handle).get());
+    }
+
+    const hp_solver *get() const { return handle_.get(); }
+
+private:
+    Buffer image_; /* its size alone; the pixels are not looked at again */
+    detail::Owned<hp_solver, hp_solver_free> handle_;
+};
+
+/** Where the density and the kept pixels of votes go; what is left out is not wanted. */
+struct VoteMaps {
+    Buffer density;
+    Buffer kept;
+};
+
+/** The curves of an image, by votes; without sources they are looked for; see hp_votes_create(). */
+template <std::size_t N>
+Graph<N> votes(const Buffer &image, const Points<N> &sources = {}, const Options &options = {},
+               const VoteOptions &vote_options = {}, const VoteMaps &maps = {},
+               const Buffer &mask = {})
+{
+    detail::check_dimension(image, N);
+    hp_graph *handle = nullptr;
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_votes_create(&image, detail::optional(mask), detail::coordinates(sources),
+                               sources.size(), plain, &vote_options, detail::optional(maps.density),
+                               detail::optional(maps.kept), &handle);
+    });
+    return detail::collect<N>(detail::GraphHandle(handle).get());
+}
+
+/** The curves of an image, from key point to key point; see hp_key_points_create(). */
+template <std::size_t N>
+Graph<N> key_points(const Buffer &image, const Points<N> &sources = {}, const Options &options = {},
+                    const KeyPointOptions &key_point_options = {}, const Buffer &mask = {})
+{
+    detail::check_dimension(image, N);
+    hp_graph *handle = nullptr;
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_key_points_create(&image, detail::optional(mask), detail::coordinates(sources),
+                                    sources.size(), plain, &key_point_options, &handle);
+    });
+    return detail::collect<N>(detail::GraphHandle(handle).get());
+}
+
+/** The centreline of a mask with radii; see hp_skeleton_create(). */
+template <std::size_t N>
+Graph<N> skeleton(const Buffer &mask, double prune = 0)
+{
+    detail::check_dimension(mask, N);
+    hp_graph *handle = nullptr;
+    check(hp_skeleton_create(&mask, prune, &handle));
+    return detail::collect<N>(detail::GraphHandle(handle).get());
+}
+
+/** Described items, see hp_array; the fields can be changed. */
+struct Array : hp_array {
+    Array() { check(hp_array_init(this, sizeof(hp_array))); }
+
+    /** Items without gaps; an item may be several numbers. Input is only read. */
+    template <class T>
+    Array(T *items, std::size_t item_count) : Array()
+    {
+        data = const_cast<std::remove_const_t<T> *>(items);
+        type = type_of<T>();
+        count = item_count;
+    }
+
+    /** The numbers of a container, one an item. */
+    template <class Container, class T = std::remove_pointer_t<decltype(
+                                   std::declval<Container &>().data())>,
+              class = std::enable_if_t<std::is_arithmetic_v<T>>>
+    Array(Container &&container) : Array(container.data(), container.size())
+    {
+    }
+
+    /** The points of a container, one an item. */
+    template <class Container, class P = std::remove_pointer_t<decltype(
+                                   std::declval<Container &>().data())>,
+              class = typename P::value_type, class = void>
+    Array(Container &&container)
+        : Array(container.empty() ? nullptr : container.data()->data(), container.size())
+    {
+    }
+};
+
+/** Curves to compare: polylines one after the other, or the pixels of a mask; see hp_curves. */
+class Curves {
+public:
+    /** Polylines in pixel coordinates. */
+    template <std::size_t N>
+    explicit Curves(const std::vector<Points<N>> &polylines, Point<N> spacing)
+    {
+        check(hp_curves_init(&plain_, sizeof plain_));
+        plain_.dimension = N;
+        for (std::size_t axis = 0; axis < N; axis++)
+            plain_.spacing[axis] = spacing[axis];
+        starts_.push_back(0);
+        for (const auto &polyline : polylines) {
+            for (const auto &point : polyline)
+                coordinates_.insert(coordinates_.end(), point.begin(), point.end());
+            starts_.push_back(coordinates_.size() / N);
+        }
+        points_array_ = Array(coordinates_.data(), coordinates_.size() / N);
+        starts_array_ = Array(starts_);
+    }
+
+    /** The pixels that are not 0. */
+    explicit Curves(const Buffer &mask) : mask_(mask)
+    {
+        check(hp_curves_init(&plain_, sizeof plain_));
+    }
+
+    Curves(const Curves &) = delete; /* the arrays point to the vectors */
+    Curves(Curves &&) = default;
+
+    hp_curves plain() const
+    {
+        hp_curves curves = plain_;
+        curves.points = mask_.data ? nullptr : &points_array_;
+        curves.starts = mask_.data ? nullptr : &starts_array_;
+        curves.mask = detail::optional(mask_);
+        return curves;
+    }
+
+private:
+    hp_curves plain_;
+    std::vector<double> coordinates_;
+    std::vector<std::uint64_t> starts_;
+    Array points_array_, starts_array_;
+    Buffer mask_;
+};
+
+/** Recall and precision by length; see hp_evaluate(). */
+inline hp_score evaluate(const Curves &extracted, const Curves &truth, double tolerance,
+                         const Buffer &view = {})
+{
+    hp_score score;
+    score.struct_size = sizeof score;
+    const hp_curves ours = extracted.plain(), theirs = truth.plain();
+    check(hp_evaluate(&ours, &theirs, detail::optional(view), tolerance, &score));
+    return score;
+}
+
+/** What to compute on a mesh and how, see hp_mesh_options. */
+struct MeshOptions : hp_mesh_options {
+    using Plain = hp_mesh_options;
+    MeshOptions() { check(hp_mesh_options_init(this, sizeof(hp_mesh_options))); }
+
+    /** As Options::on_progress. */
+    std::function<bool(double)> on_progress;
+};
+
+/** Points of a surface, see hp_surface_points. */
+class SurfacePoints {
+public:
+    /** Vertices, by their numbers. */
+    static SurfacePoints vertices(const Array &numbers)
+    {
+        return SurfacePoints(numbers, &hp_surface_points::vertices);
+    }
+
+    /** Positions in space: the nearest points of the surface. */
+    static SurfacePoints positions(const Array &xyz)
+    {
+        return SurfacePoints(xyz, &hp_surface_points::positions);
+    }
+
+    hp_surface_points plain() const
+    {
+        hp_surface_points points;
+        check(hp_surface_points_init(&points, sizeof points));
+        points.*member_ = &items_;
+        return points;
+    }
+
+private:
+    SurfacePoints(const Array &items, const hp_array *hp_surface_points::*member)
+        : items_(items), member_(member)
+    {
+    }
+
+    Array items_;
+    const hp_array *hp_surface_points::*member_;
+};
+
+/** A triangle mesh, cleaned; threads may share it. */
+class Mesh {
+public:
+    /** x, y, z of each vertex, and three vertices of each face; see hp_mesh_create(). */
+    Mesh(const Array &points, const Array &faces, const MeshOptions &options = {})
+        : Mesh(points, faces, nullptr, options)
+    {
+    }
+
+    /** Polygons, whose corners begin at starts. */
+    Mesh(const Array &points, const Array &corners, const Array &starts,
+         const MeshOptions &options = {})
+        : Mesh(points, corners, &starts, options)
+    {
+    }
+
+    /** What the mesh is like. */
+    hp_mesh_report report() const
+    {
+        hp_mesh_report report;
+        report.struct_size = sizeof report;
+        check(hp_mesh_describe(get(), &report));
+        return report;
+    }
+
+    const hp_mesh *get() const { return handle_.get(); }
+
+private:
+    Mesh(const Array &points, const Array &faces, const hp_array *starts,
+         const MeshOptions &options)
+    {
+        hp_mesh *handle = nullptr;
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_create(&points, &faces, starts, plain, &handle);
+        });
+        handle_.reset(handle);
+    }
+
+    detail::Owned<hp_mesh, hp_mesh_free> handle_;
+};
+
+/** A medium on a mesh, prepared for distances and paths from any sources; threads may share it. */
+class MeshSolver {
+public:
+    explicit MeshSolver(const Mesh &mesh, const MeshOptions &options = {})
+        : vertices_(mesh.report().vertices)
+    {
+        hp_mesh_solver *handle = nullptr;
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_solver_create(mesh.get(), plain, &handle);
+        });
+        handle_.reset(handle);
+    }
+
+    /** The distance of every vertex from the nearest source; see hp_mesh_solver_distances(). */
+    std::vector<double> distances(const SurfacePoints &sources, const MeshOptions &options = {}) const
+    {
+        std::vector<double> result(vertices_);
+        distances(sources, Array(result), options);
+        return result;
+    }
+
+    /** The same into a list of one number for each vertex. */
+    void distances(const SurfacePoints &sources, const Array &result,
+                   const MeshOptions &options = {}) const
+    {
+        const hp_surface_points points = sources.plain();
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_solver_distances(get(), &points, plain, &result, 0, nullptr, 0);
+        });
+    }
+
+    /** The shortest path from each end to a source; see hp_mesh_paths_create(). */
+    std::vector<Path<3>> paths(const SurfacePoints &sources, const SurfacePoints &ends,
+                               const MeshOptions &options = {}) const
+    {
+        hp_paths *handle = nullptr;
+        const hp_surface_points from = sources.plain(), to = ends.plain();
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_paths_create(get(), &from, &to, plain, &handle);
+        });
+        return detail::collect<3>(detail::PathsHandle(handle).get());
+    }
+
+    const hp_mesh_solver *get() const { return handle_.get(); }
+
+private:
+    std::size_t vertices_;
+    detail::Owned<hp_mesh_solver, hp_mesh_solver_free> handle_;
+};
+
+} // namespace heatpath
+
+#endif // HEATPATH_HPP
+
+/* What follows is read again by each include, once there is something to adapt to. */
+
+#if defined(OPENCV_CORE_HPP) && !defined(HEATPATH_HPP_OPENCV)
+#define HEATPATH_HPP_OPENCV
+
+namespace heatpath {
+
+/** The HP_ constant for a depth of OpenCV, such as CV_8U; 0 if there is none. */
+inline std::uint32_t type_of_depth(int depth)
+{
+    switch (depth) {
+    case CV_8U: return HP_U8;
+    case CV_8S: return HP_I8;
+    case CV_16U: return HP_U16;
+    case CV_16S: return HP_I16;
+    case CV_32S: return HP_I32;
+    case CV_32F: return HP_F32;
+    case CV_64F: return HP_F64;
+    default: return 0;
+    }
+}
+
+/** A picture or volume of OpenCV, or a part of one; of a coloured one the given channel. */
+inline Buffer buffer(const cv::Mat &mat, int channel = 0)
+{
+    Buffer buffer;
+    buffer.type = type_of_depth(mat.depth());
+    buffer.dimension = static_cast<std::uint32_t>(mat.dims);
+    buffer.data = mat.data + channel * mat.elemSize1();
+    for (int axis = 0; axis < mat.dims && axis < 3; axis++) {
+        buffer.size[axis] = static_cast<std::uint64_t>(mat.size[mat.dims - 1 - axis]);
+        buffer.byte_stride[axis] = static_cast<std::int64_t>(mat.step[mat.dims - 1 - axis]);
+    }
+    return buffer;
+}
+
+} // namespace heatpath
+
+#endif
+
+#if (defined(vtkImageData_h) || defined(vtkPolyData_h)) && !defined(HEATPATH_HPP_VTK)
+#define HEATPATH_HPP_VTK
+
+namespace heatpath {
+
+/** The HP_ constant for a type of VTK, such as VTK_SHORT; 0 if there is none. */
+inline std::uint32_t type_of_vtk(int type)
+{
+    switch (type) {
+    case VTK_CHAR: return type_of<char>();
+    case VTK_SIGNED_CHAR: return HP_I8;
+    case VTK_UNSIGNED_CHAR: return HP_U8;
+    case VTK_SHORT: return HP_I16;
+    case VTK_UNSIGNED_SHORT: return HP_U16;
+    case VTK_INT: return HP_I32;
+    case VTK_UNSIGNED_INT: return HP_U32;
+    case VTK_LONG: return type_of<long>();
+    case VTK_UNSIGNED_LONG: return type_of<unsigned long>();
+    case VTK_LONG_LONG: return HP_I64;
+    case VTK_UNSIGNED_LONG_LONG: return HP_U64;
+    case VTK_ID_TYPE: return type_of<vtkIdType>();
+    case VTK_FLOAT: return HP_F32;
+    case VTK_DOUBLE: return HP_F64;
+    default: return 0;
+    }
+}
+
+} // namespace heatpath
+
+#endif
+
+#if defined(vtkImageData_h) && !defined(HEATPATH_HPP_VTK_IMAGE)
+#define HEATPATH_HPP_VTK_IMAGE
+
+namespace heatpath {
+
+/** The scalars of a VTK image with its spacing; of several components the given one. Pixel 0, 0, 0 is the
+ * first one of the extent. */
+inline Buffer buffer(vtkImageData *image, int component = 0)
+{
+    Buffer buffer;
+    const int *size = image->GetDimensions();
+    const int bytes = image->GetScalarSize();
+    const int components = image->GetNumberOfScalarComponents();
+    buffer.type = type_of_vtk(image->GetScalarType());
+    buffer.dimension = size[2] > 1 ? 3 : 2;
+    buffer.data = static_cast<char *>(image->GetScalarPointer()) + component * bytes;
+    for (int axis = 0; axis < 3; axis++) {
+        buffer.size[axis] = static_cast<std::uint64_t>(size[axis]);
+        buffer.spacing[axis] = image->GetSpacing()[axis];
+    }
+    buffer.byte_stride[0] = static_cast<std::int64_t>(bytes) * components;
+    return buffer;
+}
+
+} // namespace heatpath
+
+#endif
+
+#if defined(vtkPolyData_h) && !defined(HEATPATH_HPP_VTK_MESH)
+#define HEATPATH_HPP_VTK_MESH
+
+namespace heatpath {
+
+/** The tuples of a VTK array: the points of a mesh, or a number for each vertex. */
+inline Array array(vtkDataArray *tuples)
+{
+    Array array;
+    array.type = type_of_vtk(tuples->GetDataType());
+    array.data = tuples->GetVoidPointer(0);
+    array.count = static_cast<std::uint64_t>(tuples->GetNumberOfTuples());
+    return array;
+}
+
+/** The polygons of a VTK mesh; its vertices are numbered as there. */
+inline Mesh mesh(vtkPolyData *surface, const MeshOptions &options = {})
+{
+    vtkCellArray *polygons = surface->GetPolys();
+    return Mesh(array(surface->GetPoints()->GetData()), array(polygons->GetConnectivityArray()),
+                array(polygons->GetOffsetsArray()), options);
+}
+
+} // namespace heatpath
+
+#endif
+
+#if defined(itkImage_h) && !defined(HEATPATH_HPP_ITK)
+#define HEATPATH_HPP_ITK
+
+namespace heatpath {
+
+/** The buffered region of an ITK image with its spacing. Pixel 0, 0, 0 is the first one of the region. */
+template <class Pixel, unsigned int N>
+Buffer buffer(itk::Image<Pixel, N> *image)
+{
+    static_assert(N == 2 || N == 3, "a picture or a volume");
+    Buffer buffer;
+    const auto size = image->GetBufferedRegion().GetSize();
+    buffer.type = type_of<Pixel>();
+    buffer.dimension = N;
+    buffer.data = image->GetBufferPointer();
+    for (unsigned int axis = 0; axis < N; axis++) {
+        buffer.size[axis] = size[axis];
+        buffer.spacing[axis] = image->GetSpacing()[axis];
+    }
+    return buffer;
+}
+
+} // namespace heatpath
+
+#endif
