@@ -2,20 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
-use heatpath_ffi_tests::{Workshop, repository, run, text, valgrind};
-use std::path::{Path, PathBuf};
+use heatpath_ffi_tests::{Workshop, heatpath, run, text, valgrind};
+use std::path::Path;
 use std::process::Command;
-
-/// The command, built in the profile of this test; usually cargo has done so already.
-fn heatpath() -> PathBuf {
-    let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
-    let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "--quiet", "--locked", "--package", "heatpath-cli", "--profile", profile]);
-    run(build.current_dir(repository(".")));
-    // This test runs in the folder `deps` beside the command.
-    let test = std::env::current_exe().unwrap();
-    test.ancestors().nth(2).unwrap().join("heatpath")
-}
 
 /// Writes a picture of 120 x 90 grey values without symmetry.
 fn write_pgm(path: &Path) {
@@ -58,13 +47,7 @@ fn write_volume(raw: &Path, npy: &Path) {
     };
     let voxels: Vec<u8> = (0..SIZE.iter().product()).map(voxel).collect();
     let [columns, rows, slices] = SIZE;
-    let header = format!(
-        "{{'descr': '|u1', 'fortran_order': False, 'shape': ({slices}, {rows}, {columns}), }}\n"
-    );
-    let mut file = b"\x93NUMPY\x01\0".to_vec();
-    file.extend((header.len() as u16).to_le_bytes());
-    file.extend(header.as_bytes());
-    file.extend(&voxels);
+    let file = heatpath_ffi_tests::npy("|u1", &[slices, rows, columns], &voxels);
     std::fs::write(npy, file).unwrap();
     std::fs::write(raw, voxels).unwrap();
 }

@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath::{
-    hp_array, hp_buffer, hp_mesh_options, hp_mesh_report, hp_options, hp_path_info,
-    hp_surface_points,
+    hp_array, hp_buffer, hp_curves, hp_graph_branch, hp_graph_info, hp_graph_node,
+    hp_key_point_options, hp_mesh_options, hp_mesh_report, hp_options, hp_path_info, hp_score,
+    hp_surface_points, hp_vote_options,
 };
 use heatpath_ffi_tests::{Workshop, repository, run, shared_library, text};
 use std::collections::BTreeSet;
@@ -18,6 +19,7 @@ fn the_header_compiles_on_its_own() {
     let workshop = Workshop::new(env!("CARGO_TARGET_TMPDIR"), "header");
     workshop.check("alone.c", ONLY_THE_HEADER);
     workshop.check("alone.cpp", ONLY_THE_HEADER);
+    workshop.check("wrapper.cpp", &ONLY_THE_HEADER.replace("heatpath.h", "heatpath.hpp"));
     workshop.check("twice.c", &ONLY_THE_HEADER.replace("int", "#include \"heatpath.h\"\nint"));
 }
 
@@ -37,12 +39,19 @@ fn c_and_rust_agree_on_structs() {
         ($with:ident) => {
             $with! {
                 hp_buffer: data spacing;
-                hp_options: smoothing estimator user solver reference memory farthest tensor tensor_count;
+                hp_options: smoothing estimator user solver reference memory farthest tensor tensor_count directions scales margin;
                 hp_path_info: source distance;
                 hp_array: data count byte_stride;
                 hp_mesh_options: user weld medium values time farthest curvature bend floor reference;
                 hp_mesh_report: vertices welded euler_characteristic;
                 hp_surface_points: curve vertices weights labels sets;
+                hp_vote_options: structure no_growth gap prune;
+                hp_key_point_options: structure iterations;
+                hp_graph_info: node_count physical_length stop;
+                hp_graph_node: point radius parent;
+                hp_graph_branch: from length mean_radius;
+                hp_curves: dimension points spacing mask;
+                hp_score: recall extracted_distance;
             }
         };
     }
@@ -76,6 +85,13 @@ fn the_library_exports_what_the_header_declares_and_nothing_else() {
     assert!(exported.iter().all(|name| name.starts_with("hp_")), "{exported:?}");
     assert_eq!(exported, declared());
     assert!(exported.len() > 10);
+}
+
+#[test]
+fn the_table_has_all_functions() {
+    let mut table = declared();
+    assert!(table.remove("hp_get_api"), "it hands out the table");
+    assert_eq!(heatpath::API.iter().map(|&name| name.to_owned()).collect::<BTreeSet<_>>(), table);
 }
 
 #[test]

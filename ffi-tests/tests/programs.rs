@@ -80,6 +80,10 @@ fn checks_itself(source: &str) {
     for mut command in [Command::new(&program), valgrind(&program)] {
         assert_eq!(text(&run(&mut command)), "");
     }
+    let mut sanitized = Command::new(workshop.build_sanitized(source));
+    // Too much memory is an answer, of which it warns on standard error.
+    let output = run(sanitized.env("ASAN_OPTIONS", "allocator_may_return_null=1"));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "");
 }
 
 #[test]
@@ -140,4 +144,24 @@ fn threads_share_meshes() {
 #[test]
 fn random_meshes_give_numbers_or_words() {
     checks_itself("mesh_any.c");
+}
+
+#[test]
+fn media_are_as_the_header_says() {
+    checks_itself("media.c");
+}
+
+#[test]
+fn curves_are_found_without_ends() {
+    checks_itself("extraction.c");
+}
+
+#[test]
+fn the_wrapper_for_cplusplus_frees_and_throws() {
+    checks_itself("wrapper.cpp");
+}
+
+#[test]
+fn structs_with_any_contents_get_a_status() {
+    checks_itself("wild.c");
 }
