@@ -31,5 +31,9 @@ install_hosts() {
             missing+=("$package")
     done
     [ "${#missing[@]}" -eq 0 ] && return
-    apt_install "${missing[@]}" || echo "not installed: ${missing[*]}" >&2
+    apt_install "${missing[@]}" && return
+    # One that apt does not know must not cost the others.
+    for package in "${missing[@]}"; do
+        apt_install "$package" || echo "not installed: $package" >&2
+    done
 }

@@ -155,9 +155,16 @@ const double *coordinates(const Points<N> &points)
     return points.empty() ? nullptr : points.front().data();
 }
 
+template <std::size_t N>
+double *coordinates(Points<N> &points)
+{
+    return points.empty() ? nullptr : points.front().data();
+}
+
+/* A buffer that was described is wanted, also if it is empty: then it is refused. */
 inline const hp_buffer *optional(const Buffer &buffer)
 {
-    return buffer.data ? &buffer : nullptr;
+    return buffer.data || buffer.type ? &buffer : nullptr;
 }
 
 inline void check_dimension(const Buffer &image, std::size_t of_points)
@@ -226,7 +233,7 @@ std::vector<Path<N>> collect(const hp_paths *handle)
         paths[i].info.struct_size = sizeof(hp_path_info);
         check(hp_paths_info(handle, i, &paths[i].info));
         paths[i].points.resize(paths[i].info.point_count);
-        check(hp_paths_points(handle, i, paths[i].points.front().data(), paths[i].points.size()));
+        check(hp_paths_points(handle, i, coordinates(paths[i].points), paths[i].points.size()));
     }
     return paths;
 }
@@ -249,12 +256,12 @@ Graph<N> collect(const hp_graph *handle)
         check(hp_graph_branch_at(handle, i, &branch.info));
         branch.points.resize(branch.info.point_count);
         branch.radii.resize(branch.info.point_count);
-        check(hp_graph_branch_points(handle, i, branch.points.front().data(), branch.radii.data(),
+        check(hp_graph_branch_points(handle, i, coordinates(branch.points), branch.radii.data(),
                                      branch.points.size()));
     }
     graph.sources.resize(graph.info.source_count);
     if (!graph.sources.empty())
-        check(hp_graph_sources(handle, graph.sources.front().data(), graph.sources.size()));
+        check(hp_graph_sources(handle, coordinates(graph.sources), graph.sources.size()));
     return graph;
 }
 
@@ -290,6 +297,7 @@ template <std::size_t N>
 void medium(const Buffer &image, const Points<N> &sources, const Buffer &result,
             const Options &options = {}, const Buffer &mask = {})
 {
+    detail::check_dimension(image, N);
     detail::run(options, [&](const hp_options *plain) {
         return hp_medium(&image, detail::optional(mask), detail::coordinates(sources),
                          sources.size(), plain, &result);
@@ -419,7 +427,7 @@ struct Array : hp_array {
     template <class Container, class T = std::remove_pointer_t<decltype(
                                    std::declval<Container &>().data())>,
               class = std::enable_if_t<std::is_arithmetic_v<T>>>
-    Array(Container &&container) : Array(container.data(), container.size())
+    Array(Container &container) : Array(container.data(), container.size())
     {
     }
 
@@ -427,7 +435,7 @@ struct Array : hp_array {
     template <class Container, class P = std::remove_pointer_t<decltype(
                                    std::declval<Container &>().data())>,
               class = typename P::value_type, class = void>
-    Array(Container &&container)
+    Array(Container &container)
         : Array(container.empty() ? nullptr : container.data()->data(), container.size())
     {
     }
@@ -466,9 +474,9 @@ public:
     hp_curves plain() const
     {
         hp_curves curves = plain_;
-        curves.points = mask_.data ? nullptr : &points_array_;
-        curves.starts = mask_.data ? nullptr : &starts_array_;
         curves.mask = detail::optional(mask_);
+        curves.points = curves.mask ? nullptr : &points_array_;
+        curves.starts = curves.mask ? nullptr : &starts_array_;
         return curves;
     }
 
@@ -500,7 +508,7 @@ struct MeshOptions : hp_mesh_options {
     std::function<bool(double)> on_progress;
 };
 
-/** Points of a surface, see hp_surface_points. */
+/** Points of a surface, see hp_surface_points. The numbers are not copied: they must outlive this. */
 class SurfacePoints {
 public:
     /** Vertices, by their numbers. */
@@ -653,10 +661,13 @@ inline std::uint32_t type_of_depth(int depth)
 /** A picture or volume of OpenCV, or a part of one; of a coloured one the given channel. */
 inline Buffer buffer(const cv::Mat &mat, int channel = 0)
 {
+    if (channel < 0 || channel >= mat.channels())
+        throw std::invalid_argument("heatpath: the picture has no channel " +
+                                    std::to_string(channel));
     Buffer buffer;
     buffer.type = type_of_depth(mat.depth());
     buffer.dimension = static_cast<std::uint32_t>(mat.dims);
-    buffer.data = mat.data + channel * mat.elemSize1();
+    buffer.data = mat.data ? mat.data + static_cast<std::size_t>(channel) * mat.elemSize1() : nullptr;
     for (int axis = 0; axis < mat.dims && axis < 3; axis++) {
         buffer.size[axis] = static_cast<std::uint64_t>(mat.size[mat.dims - 1 - axis]);
         buffer.byte_stride[axis] = static_cast<std::int64_t>(mat.step[mat.dims - 1 - axis]);
@@ -705,16 +716,20 @@ inline std::uint32_t type_of_vtk(int type)
 namespace heatpath {
 
 /** The scalars of a VTK image with its spacing; of several components the given one. Pixel 0, 0, 0 is the
- * first one of the extent. */
+ * first one of the extent. Flat in z it is a picture; flat in x or y a volume one voxel thick. */
 inline Buffer buffer(vtkImageData *image, int component = 0)
 {
+    auto *scalars = static_cast<char *>(image->GetScalarPointer());
+    if (!scalars || component < 0 || component >= image->GetNumberOfScalarComponents())
+        throw std::invalid_argument("heatpath: the image has no scalars with component " +
+                                    std::to_string(component));
     Buffer buffer;
     const int *size = image->GetDimensions();
     const int bytes = image->GetScalarSize();
     const int components = image->GetNumberOfScalarComponents();
     buffer.type = type_of_vtk(image->GetScalarType());
     buffer.dimension = size[2] > 1 ? 3 : 2;
-    buffer.data = static_cast<char *>(image->GetScalarPointer()) + component * bytes;
+    buffer.data = scalars + component * bytes;
     for (int axis = 0; axis < 3; axis++) {
         buffer.size[axis] = static_cast<std::uint64_t>(size[axis]);
         buffer.spacing[axis] = image->GetSpacing()[axis];
@@ -745,6 +760,8 @@ inline Array array(vtkDataArray *tuples)
 /** The polygons of a VTK mesh; its vertices are numbered as there. */
 inline Mesh mesh(vtkPolyData *surface, const MeshOptions &options = {})
 {
+    if (!surface->GetPoints())
+        throw std::invalid_argument("heatpath: the surface has no points");
     vtkCellArray *polygons = surface->GetPolys();
     return Mesh(array(surface->GetPoints()->GetData()), array(polygons->GetConnectivityArray()),
                 array(polygons->GetOffsetsArray()), options);

@@ -1,5 +1,6 @@
 //! What went wrong, and the exit code for it.
 
+use clap::error::ErrorKind;
 use heatpath_core::evaluation::EvaluationError;
 use heatpath_core::exec::ThreadsError;
 use heatpath_core::grid::distance::{EikonalError, HeatMethodError};
@@ -73,6 +74,26 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.message)
+    }
+}
+
+/// What the parser of command lines says, without how the command is used.
+pub(crate) fn in_one_line(error: &clap::Error) -> String {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        return "asks for help".to_owned();
+    }
+    let text = error.to_string();
+    let lines = text.lines().take_while(|line| !line.starts_with("Usage:"));
+    let words = lines
+        .filter(|line| !line.starts_with("For more information"))
+        .flat_map(str::split_whitespace);
+    let line = words.collect::<Vec<_>>().join(" ");
+    line.strip_prefix("error: ").map_or(line.clone(), str::to_owned)
+}
+
+impl From<clap::Error> for Failure {
+    fn from(error: clap::Error) -> Self {
+        Self::usage(in_one_line(&error))
     }
 }
 

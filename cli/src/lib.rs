@@ -53,13 +53,7 @@ pub fn main() -> ExitCode {
 /// # Errors
 /// What the command `heatpath` would print, in one line.
 pub fn heatpath(words: impl IntoIterator<Item = OsString>) -> Result<(), Failure> {
-    let args = Args::try_parse_from(words).map_err(|error| {
-        let text = error.to_string();
-        let lines = text.lines().take_while(|line| !line.is_empty()).map(str::trim);
-        let line = lines.collect::<Vec<_>>().join(" ");
-        Failure::usage(line.strip_prefix("error: ").unwrap_or(&line))
-    })?;
-    command(args.command)
+    command(Args::try_parse_from(words)?.command)
 }
 
 fn command(command: Command) -> Result<(), Failure> {

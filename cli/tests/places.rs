@@ -171,12 +171,27 @@ fn a_component_is_chosen() {
 }
 
 #[test]
+fn a_header_of_the_same_stem_has_data_of_its_own() {
+    let bench = bench();
+    bench.ok("medium v.nrrd --source 3,4,2 -o k.mhd");
+    let before = fs::read(bench.path("k.mhd.raw")).unwrap();
+    bench.ok("distance k.mhd --source 3,4,2 -o k.nhdr --force");
+    assert_eq!(fs::read(bench.path("k.mhd.raw")).unwrap(), before);
+    let [input, output] =
+        ["k.mhd", "k.nhdr"].map(|name| read_field::<3>(bench.path(name), None).unwrap());
+    assert_ne!(input, output);
+    bench.ok("medium v.nrrd --source 3,4,2 -o data.raw --format mhd");
+    assert!(bench.path("data.raw.raw").exists());
+    assert_eq!(read_field::<3>(bench.path("data.raw"), None).unwrap(), input);
+}
+
+#[test]
 fn votes_and_media_keep_the_place_too() {
     let bench = bench();
     bench.ok("medium v.nrrd --source 3,4,2 -o k.nii.gz");
     bench.ok("vote v.nrrd --source 3,4,2 --structure 0.5 -o kept.mha --density votes.nrrd");
     bench.ok("keypoints v.nrrd --source 3,4,2 --structure 0.5 -o c.vtp --travelling t.mhd");
-    assert!(bench.path("t.raw").exists());
+    assert!(bench.path("t.mhd.raw").exists());
     for name in ["k.nii.gz", "kept.mha", "votes.nrrd", "t.mhd"] {
         let found = ImageFile::read(bench.path(name)).unwrap().placement().unwrap();
         assert!(close(&found.origin, &place().origin, 1e-5), "{name}");

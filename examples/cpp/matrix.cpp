@@ -7,9 +7,15 @@
 #include "heatpath.hpp"
 #include "pgm.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+
+/* The pixel of a coordinate, which runs from half a pixel before the first to half a pixel after the last. */
+static std::size_t nearest(double at, std::size_t size)
+{
+    return std::min(static_cast<std::size_t>(std::max(at + 0.5, 0.0)), size - 1);
+}
 
 int main(int argc, char **argv)
 try {
@@ -32,8 +38,7 @@ try {
 
     for (std::size_t from = 0; from < points.size(); from++) {
         for (const auto &[x, y] : points) {
-            const auto column = static_cast<std::size_t>(std::lround(x));
-            const auto row = static_cast<std::size_t>(std::lround(y));
+            const std::size_t column = nearest(x, picture.width), row = nearest(y, picture.height);
             std::printf("%.17g ", maps[(from * picture.height + row) * picture.width + column]);
         }
         std::printf("\n");

@@ -3,7 +3,6 @@
 #include "heatpath.hpp"
 
 #include <string>
-#include <thread>
 
 static unsigned char pixels[PIXELS];
 static const heatpath::Points<2> from{{4, 5}}, to{{20, 15}};
@@ -97,6 +96,21 @@ static void failures_are_thrown()
         CHECK(!"points of a volume are refused");
     } catch (const std::invalid_argument &error) {
         CHECK(strstr(error.what(), "points have 3 coordinates, but the image has 2 axes"));
+    }
+    std::vector<double> speed(PIXELS);
+    try {
+        heatpath::medium<3>(picture(), {{1, 2, 3}}, heatpath::Buffer(speed.data(), {WIDTH, HEIGHT}));
+        CHECK(!"points of a volume are refused here too");
+    } catch (const std::invalid_argument &error) {
+        CHECK(strstr(error.what(), "3 coordinates"));
+    }
+    try {
+        heatpath::Buffer nothing;
+        nothing.type = HP_U8;
+        heatpath::distance(picture(), from, {}, nothing);
+        CHECK(!"an empty mask is no mask that is left out");
+    } catch (const heatpath::Error &error) {
+        CHECK(error.status() == HP_INVALID_BUFFER);
     }
     heatpath::Options options;
     options.on_progress = [](double) { return false; };

@@ -165,8 +165,10 @@ bool read_configuration()
     char *text = OrthancPluginGetConfiguration(context);
     const auto all = nlohmann::json::parse(text ? text : "{}", nullptr, false);
     OrthancPluginFreeString(context, text);
-    const auto own = all.value("Heatpath", nlohmann::json::object());
-    const auto limit = own.is_object() ? own.value("TimeLimit", nlohmann::json(time_limit)) : own;
+    const auto own = all.is_object() ? all.value("Heatpath", nlohmann::json::object())
+                                     : nlohmann::json::object();
+    const auto limit =
+        own.is_object() ? own.value("TimeLimit", nlohmann::json(time_limit)) : nlohmann::json();
     if (!limit.is_number_unsigned() || limit.get<std::uint64_t>() > longest) {
         OrthancPluginLogError(context, "heatpath: in the configuration, Heatpath must be "
                                        "{\"TimeLimit\": whole seconds, at most 31536000}");

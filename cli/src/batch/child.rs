@@ -4,6 +4,7 @@
 //! lifeline); when that is cut, also because the batch was killed, the row stops as if by Ctrl-C.
 //! Until it has ended it locks the journal, for which the next batch waits.
 
+use super::manifest::one_line;
 use super::row::Row;
 use crate::run;
 use serde_json::Value;
@@ -108,7 +109,7 @@ fn message(status: ExitStatus, said: &str) -> String {
     let error = said.lines().find_map(|line| line.strip_prefix("heatpath: error: "));
     let said: String = match error {
         Some(error) => error.to_owned(),
-        None => said.split_whitespace().collect::<Vec<_>>().join(" "),
+        None => one_line(said),
     };
     let said: String = said.chars().take(LONGEST).collect();
     match (status.code(), said.is_empty()) {

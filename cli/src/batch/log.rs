@@ -85,23 +85,17 @@ pub(super) enum Fate {
 impl History {
     /// What is to be done with a row; failed rows run again if asked to `retry`.
     pub(super) fn fate(&self, row: &Row, folder: &Path, retry: bool) -> Fate {
+        let is_settled = |record: &&Record| match record.status {
+            Status::Done => record.is_complete(folder),
+            Status::Failed => !retry,
+        };
         let record = self.records.get(&row.arguments).filter(|record| record.is_of(row, folder));
-        match record {
-            Some(record) if record.status == Status::Done && record.is_complete(folder) => {
-                Fate::Keep(Box::new(Record {
-                    row: row.number,
-                    name: row.name.clone(),
-                    ..record.clone()
-                }))
+        match record.filter(is_settled) {
+            Some(record) => {
+                let name = row.name.clone();
+                Fate::Keep(Box::new(Record { row: row.number, name, ..record.clone() }))
             }
-            Some(record) if record.status == Status::Failed && !retry => {
-                Fate::Keep(Box::new(Record {
-                    row: row.number,
-                    name: row.name.clone(),
-                    ..record.clone()
-                }))
-            }
-            _ => {
+            None => {
                 Fate::Run { overwrite: row.outputs.iter().any(|output| self.ours.contains(output)) }
             }
         }

@@ -54,9 +54,10 @@ pub(crate) fn batch(args: &BatchArgs) -> Result<(), Failure> {
     plan.tidy(&work)?;
     // === Run
     let unchanged = kept.len();
-    let site = Site::new(&plan.folder, log.journal(), usize::from(args.jobs))
+    let jobs = usize::from(args.jobs).min(work.len()).max(1);
+    let site = Site::new(&plan.folder, log.journal(), jobs)
         .map_err(|error| Failure::file(format!("rows cannot be run: {error}")))?;
-    let run = pool::run(&site, work, &mut log, (usize::from(args.jobs), args.quiet))?;
+    let run = pool::run(&site, work, &mut log, (jobs, args.quiet))?;
     if !run.is_interrupted {
         log.close().map_err(|error| Failure::file(format!("{}: {error}", plan.log.display())))?;
     }

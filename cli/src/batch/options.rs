@@ -1,8 +1,7 @@
 //! Keys as options of a command.
 
-use super::manifest::{Given, Keys, one_line};
+use super::manifest::{Given, Keys};
 use clap::builder::ValueParser;
-use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use std::path::PathBuf;
 
@@ -92,16 +91,4 @@ pub(super) fn files(command: &Command, matches: &ArgMatches, are_outputs: bool) 
     let files = command.get_arguments().filter(is_file).map(|arg| arg.get_id().as_str());
     let files = files.filter(|id| OUTPUTS.contains(id) == are_outputs);
     files.filter_map(|id| matches.get_many::<PathBuf>(id)).flatten().cloned().collect()
-}
-
-/// What the parser says, without how the command is used.
-pub(super) fn in_one_line(error: &clap::Error) -> String {
-    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        return "asks for help".to_owned();
-    }
-    let text = error.to_string();
-    let lines = text.lines().take_while(|line| !line.starts_with("Usage:"));
-    let lines = lines.filter(|line| !line.starts_with("For more information"));
-    let line = one_line(&lines.collect::<Vec<_>>().join(" "));
-    line.strip_prefix("error: ").map_or(line.clone(), str::to_owned)
 }

@@ -47,11 +47,10 @@ pub(super) fn run(
         }
     }));
     let bar = progress_bar(tasks.len(), quiet);
-    let workers = jobs.min(tasks.len());
     let tasks = tasks.into_iter();
     let shared = Mutex::new(Shared { tasks, log, records: Vec::new(), broken: None });
     thread::scope(|scope| {
-        for _ in 0..workers {
+        for _ in 0..jobs {
             scope.spawn(|| work(site, &shared, &lifelines, &bar));
         }
     });

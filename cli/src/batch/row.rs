@@ -1,9 +1,11 @@
 //! Rows: what a manifest asks for as command lines, checked by the parser of the command.
 
 use super::manifest::{Given, Keys, one_line};
-use super::options::{arguments, files, in_one_line, is_own, takes};
+use super::options::{arguments, files, is_own, takes};
 use crate::args::Args;
+use crate::failure::in_one_line;
 use clap::{ArgMatches, Command, CommandFactory};
+use heatpath_io::data_file;
 use std::path::{Path, PathBuf};
 
 /// Commands that make no sense in a row.
@@ -57,11 +59,17 @@ impl Rows {
         let keys = self.with_defaults(&description, number, keys);
         let arguments = arguments(&description, &command, &keys)?;
         let matches = self.matches(&arguments, &command)?;
-        let outputs = files(&description, &matches, true);
+        let mut outputs = files(&description, &matches, true);
+        let is_main =
+            |file: &Path| text(&keys, "output").is_some_and(|name| Path::new(name) == file);
+        let format = |file: &Path| text(&keys, "format").filter(|_| is_main(file));
+        let data: Vec<_> =
+            outputs.iter().filter_map(|file| data_file(file, format(file))).collect();
         let evaluation = match command.as_str() {
             "evaluate" => None,
             _ => self.evaluation(&keys, &outputs)?,
         };
+        outputs.extend(data);
         let mut inputs = files(&description, &matches, false);
         let truth = evaluation.is_some().then(|| text(&keys, "truth")).flatten();
         inputs.extend(truth.map(PathBuf::from));
@@ -177,7 +185,7 @@ fn text<'a>(keys: &'a Keys, key: &str) -> Option<&'a str> {
     }
 }
 
-/// The name of a file without folders and ending; `.nii.gz` is one ending.
+/// The name of a file without folders and ending; a `.gz` is none.
 fn stem(path: &str) -> String {
     let stem = |path: &Path| path.file_stem().map(PathBuf::from).unwrap_or_default();
     let once = stem(Path::new(path));

@@ -72,11 +72,6 @@ impl FieldFormat {
     fn is_placed(self) -> bool {
         !matches!(self, Self::Npy | Self::Tiff | Self::Png)
     }
-
-    /// Whether the numbers go to a second file.
-    pub(crate) fn is_detached(self) -> bool {
-        matches!(self, Self::Nhdr | Self::Mhd)
-    }
 }
 
 /// What the file of a field says beyond its values; formats leave out what they cannot hold.

@@ -29,8 +29,9 @@
 //! Inputs are recognised by their content, outputs by the ending of their name. Inputs are not
 //! trusted: no size is believed before the file is long enough for it, and each error is one line
 //! that names the file, what was wrong and what would have been accepted. Outputs appear complete
-//! or not at all ([`write_atomically`]). Well-kept crates do the formats; this one holds what lies
-//! between them and a [`Grid`](heatpath_core::grid::Grid), and the formats of meshes.
+//! or not at all ([`write_atomically`]), of a header with a data file each by itself. Well-kept crates do the formats; this one holds what lies
+//! between them and a [`Grid`](heatpath_core::grid::Grid), and the formats
+//! of meshes and medical volumes.
 //!
 //! ```
 //! use heatpath_core::grid::{Grid, Shape};
@@ -86,7 +87,7 @@ pub use mesh::{
     read_mesh_values, render_mesh, write_mesh, write_mesh_paths, write_mesh_picture,
     write_mesh_values,
 };
-pub use output::{check_dimension, check_output, remove_leftovers, write_atomically};
+pub use output::{check_dimension, check_output, data_file, remove_leftovers, write_atomically};
 pub use overlay::{Overlay, write_overlay};
 pub use picture::{
     Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture, read_tensors,

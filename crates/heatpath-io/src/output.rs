@@ -141,9 +141,20 @@ pub fn ending(path: &Path) -> &str {
     }
 }
 
+/// The second file of an output whose numbers do not go into its header (`.mhd`, `.nhdr`): `a.mhd.raw`.
+///
+/// The whole name counts, so that no two headers share it, and no header names itself.
+#[must_use]
+pub fn data_file(path: &Path, format: Option<&str>) -> Option<PathBuf> {
+    let kind = format.unwrap_or_else(|| ending(path));
+    DETACHED.iter().any(|detached| detached.eq_ignore_ascii_case(kind)).then(|| companion(path))
+}
+
 /// The file for the data of a header.
 pub(crate) fn companion(header: &Path) -> PathBuf {
-    header.with_extension("raw")
+    let mut name = header.as_os_str().to_owned();
+    name.push(".raw");
+    PathBuf::from(name)
 }
 
 /// Refuses a file that exists, unless it may be overwritten.

@@ -108,7 +108,7 @@ impl ImageFile {
         Self::decode(bytes, name.as_ref(), Wanted::default())
     }
 
-    fn decode(bytes: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<Self, ReadError> {
+    pub(crate) fn decode(bytes: &[u8], path: &Path, wanted: Wanted<'_>) -> Result<Self, ReadError> {
         Ok(Self { raster: decode(bytes, path, wanted)?, path: path.to_owned() })
     }
 

@@ -231,13 +231,16 @@ fn is_shown<const D: usize>(point: &[f64; D], view: View, depth: Depth) -> bool 
 fn plane(volume: &Grid<f64, 3>, view: View, depth: Depth) -> Vec<f64> {
     let size = volume.shape().size();
     let mut plane = vec![f64::NAN; size[view.right] * size[view.down]];
-    for (i, &value) in volume.values().iter().enumerate() {
-        let at = [i % size[0], i / size[0] % size[1], i / size[0] / size[1]];
-        let cell = &mut plane[at[view.down] * size[view.right] + at[view.right]];
-        match depth {
-            Depth::Slice(slice) if at[view.through] == slice => *cell = value,
-            Depth::Slice(_) => {}
-            Depth::Largest => *cell = cell.max(value),
+    let depths = match depth {
+        Depth::Slice(slice) => slice..slice + 1,
+        Depth::Largest => 0..size[view.through],
+    };
+    let mut at = [0; 3];
+    for through in depths {
+        at[view.through] = through;
+        for (i, cell) in plane.iter_mut().enumerate() {
+            (at[view.right], at[view.down]) = (i % size[view.right], i / size[view.right]);
+            *cell = cell.max(volume[at]);
         }
     }
     plane

@@ -1,12 +1,13 @@
 //! What was written, small enough for a page with many results.
 
 use crate::colour::{colour_map, enlargement};
+use crate::decode::Wanted;
 use crate::legend::enlarged;
+use crate::picture::read_bytes;
 use crate::{Format, ImageFile, ReadError};
 use heatpath_core::grid::{Grid, Shape};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageFormat, ImageReader, RgbImage, imageops};
-use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -29,8 +30,8 @@ pub struct Thumbnail {
 /// The file cannot be read as a picture, field or volume.
 pub fn thumbnail(path: impl AsRef<Path>, longest: u32) -> Result<Thumbnail, ReadError> {
     let path = path.as_ref();
-    let bytes =
-        fs::read(path).map_err(|source| ReadError::Open { path: path.to_owned(), source })?;
+    let bytes = read_bytes(path)?;
+    let wanted = Wanted { folder: path.parent(), component: None };
     let broken = |error: &dyn ToString| ReadError::Decode {
         path: path.to_owned(),
         format: Format::Png,
@@ -41,7 +42,7 @@ pub fn thumbnail(path: impl AsRef<Path>, longest: u32) -> Result<Thumbnail, Read
             let reader = ImageReader::with_format(Cursor::new(&bytes), ImageFormat::Png);
             reader.decode().map_err(|error| broken(&error))?.into_rgb8()
         }
-        _ => in_colours(ImageFile::from_bytes(&bytes, path)?)?,
+        _ => in_colours(ImageFile::decode(&bytes, path, wanted)?)?,
     };
     let picture = reduced(picture, longest.max(1));
     let [width, height] = [picture.width(), picture.height()];

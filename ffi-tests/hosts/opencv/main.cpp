@@ -34,6 +34,8 @@ cv::Mat draw(const cv::Mat &pixels, const Points &path)
     cv::normalize(pixels, grey, 0, 255, cv::NORM_MINMAX, CV_8U);
     if (grey.channels() == 1)
         cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+    else if (grey.channels() == 4)
+        cv::cvtColor(grey, picture, cv::COLOR_BGRA2BGR);
     else
         picture = grey;
     // OpenCV takes integers; with a shift of 4 they are sixteenths of a pixel.
@@ -68,10 +70,7 @@ void trace(char **arguments)
         throw std::runtime_error(std::string(arguments[0]) + " cannot be read");
     const std::vector<double> at = numbers(arguments[2], 4);
     const cv::Mat part = picture(cv::Rect(at[0], at[1], at[2], at[3]));
-    const int channel = std::stoi(arguments[1]);
-    if (channel < 0 || channel >= part.channels())
-        throw std::runtime_error("the picture has no such channel");
-    const heatpath::Buffer image = heatpath::buffer(part, channel);
+    const heatpath::Buffer image = heatpath::buffer(part, std::stoi(arguments[1]));
     const Points sources{point(arguments[3])}, ends{point(arguments[4])};
 
     // From the end to the source; without the source if there is no way to it.

@@ -25,7 +25,10 @@ fn orthanc() {
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     let server = Server::start(&plugin.join("libOrthancHeatpath.so"), &folder);
-    assert_eq!(server.text("GET", "/heatpath", ""), (200, "{\"version\":\"0.1.0\"}\n".to_owned()));
+    assert_eq!(
+        server.text("GET", "/heatpath", ""),
+        (200, format!("{{\"version\":\"{}\"}}\n", env!("CARGO_PKG_VERSION")))
+    );
     let store = |number, pixels: &Pixels| Stored::new(&server, &folder, number, pixels);
     let grey = store(1, &Pixels::grey("<u2", 2000.0));
     let signed = store(2, &Pixels::grey("<i2", 0.0));

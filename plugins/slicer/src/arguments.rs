@@ -2,6 +2,7 @@
 
 use crate::module::{Kind, Module, Parameter};
 use clap::{Arg, ArgAction, ArgMatches, Command};
+use heatpath_cli::Failure;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -21,22 +22,30 @@ pub enum Request {
     },
 }
 
-/// Reads the command line of a module; its first word is the name of the program. A wrong one ends
-/// the process with a message and exit code 2.
-#[must_use]
-pub fn command_line(module: &Module, words: impl IntoIterator<Item = OsString>) -> Request {
-    let given = parser(module).get_matches_from(words);
+/// Reads the command line of a module; its first word is the name of the program. `--help` and
+/// `--version` end the process.
+///
+/// # Errors
+/// What is wrong with it, in one line.
+pub fn command_line(
+    module: &Module,
+    words: impl IntoIterator<Item = OsString>,
+) -> Result<Request, Failure> {
+    let given = match parser(module).try_get_matches_from(words) {
+        Err(error) if error.use_stderr() => return Err(error.into()),
+        given => given.unwrap_or_else(|asked| asked.exit()),
+    };
     if given.get_flag("xml") {
-        return Request::Xml;
+        return Ok(Request::Xml);
     }
     if given.get_flag("logo") {
-        return Request::Logo;
+        return Ok(Request::Logo);
     }
     let own = module.command.iter().copied().map(OsString::from);
     let chosen = parameters(module).flat_map(|parameter| passed_on(parameter, &given));
     let words = own.chain(chosen).chain(["--quiet", "--force"].map(OsString::from)).collect();
     let return_parameters = given.get_one::<OsString>("returnparameterfile").map(PathBuf::from);
-    Request::Run { words, return_parameters }
+    Ok(Request::Run { words, return_parameters })
 }
 
 fn parameters(module: &Module) -> impl Iterator<Item = &Parameter> {

@@ -39,7 +39,7 @@ pub fn main(module: &Module) -> ExitCode {
 }
 
 fn run(module: &Module, words: impl Iterator<Item = OsString>) -> Result<(), Failure> {
-    match command_line(module, words) {
+    match command_line(module, words)? {
         Request::Xml => print(&description(module)),
         Request::Logo => print(&logo::logo()),
         Request::Run { words, return_parameters } => {

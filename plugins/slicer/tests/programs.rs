@@ -190,6 +190,7 @@ fn a_failure_is_one_line() {
         (&["--source", "1,2"], 2, "--source 1,2: has 2 numbers, but the input is a volume"),
         (&[], 2, "the following required arguments were not provided: <--source <X,Y[,Z]>"),
         (&["--source", "1,2,3", "--power", "much"], 2, "invalid value 'much' for '--power <N>'"),
+        (&["--bogus"], 2, "unexpected argument '--bogus' found"),
     ] {
         let output = program(DISTANCE.name).args([&volume, &out]).args(more).output().unwrap();
         let message = text(&output.stderr);

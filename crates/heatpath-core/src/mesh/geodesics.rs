@@ -143,7 +143,7 @@ impl Geodesics {
         &self.medium
     }
 
-    /// The method that is used: not [`Method::Auto`].
+    /// The method that is used, or tried first: not [`Method::Auto`].
     #[must_use]
     pub fn method(&self) -> Method {
         match self.solver {
@@ -182,16 +182,14 @@ impl Geodesics {
                 Ok(maps)
             }
             Solver::Eikonal(eikonal) => {
-                let options = EikonalOptions { farthest: self.farthest };
-                each(sets, exec, |sources, exec| Ok(eikonal.distance(sources, &options, exec)?))
+                each(sets, exec, |sources, exec| self.march(eikonal, sources, exec))
             }
             Solver::Exact(exact, instead) => {
                 let options = ExactOptions { farthest: self.farthest };
                 each(sets, exec, |sources, exec| {
                     match (exact.distance(sources, &options, exec), instead) {
                         (Err(ExactError::Windows { .. }), Some(eikonal)) => {
-                            let options = EikonalOptions { farthest: self.farthest };
-                            Ok(eikonal.distance(sources, &options, exec)?)
+                            self.march(eikonal, sources, exec)
                         }
                         (result, _) => Ok(result?),
                     }
@@ -214,20 +212,36 @@ impl Geodesics {
         exec: &Exec,
     ) -> Result<(DistanceMap, Vec<Path>), GeodesicsError> {
         self.medium.mesh().check_points("end", ends.iter().copied())?;
-        if let Solver::Exact(exact, instead) = &self.solver {
-            match exact.paths(sources, &ExactOptions { farthest: self.farthest }, exec) {
-                Err(ExactError::Windows { .. }) if instead.is_some() => {}
-                found => {
-                    let found = found?;
-                    let paths = ends.iter().map(|end| found.path(end)).collect::<Result<_, _>>()?;
-                    return Ok((found.map().clone(), paths));
+        let map = match &self.solver {
+            Solver::Exact(exact, instead) => {
+                let options = ExactOptions { farthest: self.farthest };
+                match (exact.paths(sources, &options, exec), instead) {
+                    (Err(ExactError::Windows { .. }), Some(eikonal)) => {
+                        self.march(eikonal, sources, exec)?
+                    }
+                    (found, _) => {
+                        let found = found?;
+                        let paths =
+                            ends.iter().map(|end| found.path(end)).collect::<Result<_, _>>()?;
+                        return Ok((found.map().clone(), paths));
+                    }
                 }
             }
-        }
-        let map = self.distance(sources, exec)?;
+            _ => self.distance(sources, exec)?,
+        };
         let descent = Descent::new(&self.medium, map.values(), sources)?;
         let paths = ends.iter().map(|&end| descent.path(end)).collect::<Result<_, _>>()?;
         Ok((map, paths))
+    }
+
+    fn march(
+        &self,
+        eikonal: &Eikonal,
+        sources: &Sources,
+        exec: &Exec,
+    ) -> Result<DistanceMap, GeodesicsError> {
+        let options = EikonalOptions { farthest: self.farthest };
+        Ok(eikonal.distance(sources, &options, exec)?)
     }
 
     /// The path from the first of `points` through all others, in their order, to the last, which has the

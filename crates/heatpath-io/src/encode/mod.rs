@@ -63,20 +63,28 @@ impl<'a> Volume<'a> {
     }
 
     /// Writes the file in one of the formats of volumes; for `.nhdr` and `.mhd` the numbers go to a
-    /// file of the same name that ends in `.raw`.
+    /// file beside it, `a.mhd.raw`.
     pub(crate) fn write(
         &self,
         path: &Path,
         format: FieldFormat,
         overwrite: bool,
     ) -> Result<(), WriteError> {
-        let Some(data) = format.is_detached().then(|| companion(path)) else {
+        let Some(data) =
+            matches!(format, FieldFormat::Nhdr | FieldFormat::Mhd).then(|| companion(path))
+        else {
             return write_atomically(path, overwrite, |out| self.write_whole(out, format));
         };
         check_free(path, overwrite)?;
         write_atomically(&data, overwrite, |out| self.numbers.write(out))?;
         let name = data.file_name().unwrap_or_default().to_string_lossy();
-        write_atomically(path, overwrite, |out| self.write_header(out, format, Some(&name)))
+        let header =
+            write_atomically(path, overwrite, |out| self.write_header(out, format, Some(&name)));
+        if header.is_err() && !overwrite {
+            // Numbers without a header are nobody's; that they cannot be removed says less.
+            drop(std::fs::remove_file(&data));
+        }
+        header
     }
 
     fn write_whole(&self, out: &mut dyn Write, format: FieldFormat) -> io::Result<()> {

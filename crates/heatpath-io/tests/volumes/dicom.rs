@@ -157,3 +157,13 @@ fn folders_that_are_no_volume_are_explained() {
     let tilted = other(0x0020_0032, b"1\\1\\2 ");
     assert!(text(&series(&[1.0, 2.0], tilted)).contains("axes 1 and 2 meet at 135"));
 }
+
+#[test]
+fn a_highest_bit_beyond_all_is_refused() {
+    let mut bytes = Dicom::default().bytes();
+    // The element of the highest bit, explicit and little-endian.
+    let element = [0x28, 0, 0x02, 0x01, b'U', b'S', 2, 0, 15, 0];
+    let at = bytes.windows(element.len()).position(|window| window == element).unwrap();
+    bytes[at + 8..at + 10].copy_from_slice(&[0xff, 0xff]);
+    assert!(text_error(&bytes).contains("up to bit 65535"));
+}

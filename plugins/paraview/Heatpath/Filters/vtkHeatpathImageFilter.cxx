@@ -100,7 +100,8 @@ hp_options vtkHeatpathImageFilter::Options()
 bool vtkHeatpathImageFilter::Describe(vtkImageData *image, hp_buffer &buffer)
 {
     vtkDataArray *scalars = this->GetInputArrayToProcess(0, image);
-    if (!scalars || this->Component < 0 || this->Component >= scalars->GetNumberOfComponents()) {
+    if (!scalars || scalars->GetNumberOfTuples() != image->GetNumberOfPoints() || this->Component < 0 ||
+        this->Component >= scalars->GetNumberOfComponents()) {
         vtkErrorMacro("Scalars: the image has no point array of that name with a component "
                       << this->Component);
         return false;

@@ -30,8 +30,8 @@ impl Layout {
         let short = |tag| elements.need_short(tag);
         let (allocated, bits) = (short(0x0028_0100)?, short(0x0028_0101)?);
         let high = elements.short(0x0028_0102).unwrap_or(bits.saturating_sub(1));
-        if !matches!(allocated, 8 | 16 | 32) || !(1..=allocated).contains(&bits) || high + 1 != bits
-        {
+        let fits = (1..=allocated).contains(&bits) && high.checked_add(1) == Some(bits);
+        if !matches!(allocated, 8 | 16 | 32) || !fits {
             return Err(format!(
                 "pixels of {bits} bits up to bit {high} in {allocated}; 8, 16 and 32 bits, the lowest \
                  ones used, are accepted"

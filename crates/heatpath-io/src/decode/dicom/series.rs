@@ -1,15 +1,16 @@
 //! The slices of a series in a folder, in order of their places.
 
-use super::elements::Elements;
+use super::elements::{Elements, PREAMBLE};
 use super::frame::Frame;
 use super::is_dicom;
 use crate::decode::volume::Scale;
-use crate::decode::{Format, Input, Raster, Wanted};
+use crate::decode::{Format, Input, MOST_PIXELS, Raster, Wanted};
 use crate::picture::read_bytes;
 use crate::placement::{Geometry, Vector, dot};
 use crate::sample::Samples;
 use crate::{ReadError, memory};
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Slices may lie beside their even places by this part of their distance: positions are often
@@ -75,10 +76,10 @@ fn read(folder: &Path, wanted: Wanted<'_>) -> Result<Vec<Slice>, ReadError> {
     paths.sort();
     let mut slices = Vec::new();
     for path in paths {
-        let bytes = read_bytes(&path)?;
-        if !is_dicom(&bytes) {
+        if !has_mark(&path)? {
             continue;
         }
+        let bytes = read_bytes(&path)?;
         let input = Input { bytes: &bytes, path: &path, format: Format::Dicom, wanted };
         let elements = Elements::parse(&bytes).map_err(|e| input.broken(e))?;
         // A directory of the medium, a report.
@@ -86,8 +87,13 @@ fn read(folder: &Path, wanted: Wanted<'_>) -> Result<Vec<Slice>, ReadError> {
             continue;
         }
         let frame = Frame::decode(&input, &elements)?;
-        let cells = (frame.size[0] * frame.size[1]) as u64;
-        memory::check(folder, cells.saturating_mul(8 * (slices.len() as u64 + 1)))?;
+        let [columns, rows] = frame.size.map(|side| side as u64);
+        let size = vec![columns, rows, slices.len() as u64 + 1];
+        let cells = size.iter().fold(1_u64, |cells, &side| cells.saturating_mul(side));
+        if cells > MOST_PIXELS {
+            return Err(ReadError::TooLarge { path: folder.to_owned(), size, most: MOST_PIXELS });
+        }
+        memory::check(folder, cells.saturating_mul(8))?;
         let height = frame.normal().zip(frame.position).map_or(0.0, |(n, p)| dot(n, p));
         slices.push(Slice { path, frame, height });
     }
@@ -95,6 +101,15 @@ fn read(folder: &Path, wanted: Wanted<'_>) -> Result<Vec<Slice>, ReadError> {
         return Err(broken(folder, "there are no pictures of DICOM in this folder"));
     }
     Ok(slices)
+}
+
+/// Whether a file begins as DICOM does; others may be of any size, and are not read.
+fn has_mark(path: &Path) -> Result<bool, ReadError> {
+    let open = |source| ReadError::Open { path: path.to_owned(), source };
+    let mut start = Vec::new();
+    let file = File::open(path).map_err(open)?;
+    file.take(PREAMBLE as u64 + 4).read_to_end(&mut start).map_err(open)?;
+    Ok(is_dicom(&start))
 }
 
 /// Refuses what makes no volume; with one slice there is nothing to check.

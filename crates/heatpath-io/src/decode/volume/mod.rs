@@ -8,9 +8,9 @@ pub(super) mod nrrd;
 mod nrrd_axes;
 
 use super::{Input, Raster};
-use crate::ReadError;
 use crate::placement::Geometry;
 use crate::sample::{SampleType, Samples};
+use crate::{ReadError, memory};
 use block::{Block, Encoding};
 
 pub(super) use block::samples;
@@ -78,6 +78,7 @@ impl Header {
         let least_bytes = self.encoding.least_bytes(self.numbers(), self.sample, self.skip);
         let size = data.check_size(&self.size, least_bytes)?;
         let length = size.iter().product::<usize>() * self.channels as usize;
+        memory::check(input.path, (length as u64).saturating_mul(self.sample.bytes() as u64))?;
         let first = choice.frame as usize * length;
         let block = Block {
             sample: self.sample,

@@ -91,7 +91,8 @@ pub enum ExactError {
 /// the rays that bound a window all pass through vertices. Behind a vertex the windows of both sides
 /// overlap, or the vertex is a source; which one is decided at an angle of 1e-8, that is far above the
 /// rounding of an angle. And a window is given up only for a path that is shorter by a part of 1e-12.
-/// What rounding can do is keep windows that are not needed. Expect relative errors of 1e-12; of needles,
+/// What rounding can do is keep windows that are not needed, and lose some across needles; the distances
+/// of vertices go on along the edges too, so none is left out. Expect relative errors of 1e-12; of needles,
 /// lengths alone leave fewer digits of what lies across them. Only at edges with more than two
 /// faces windows are cut, where others are shorter by the same margin: layers of faces would take exponential time.
 ///

@@ -115,14 +115,16 @@ impl<'a> Propagation<'a> {
         }
         let is_news = is_longer(known.distance, reached.distance);
         self.reached += usize::from(known.origin == Origin::Nowhere);
-        let bends = self.can_bend[vertex as usize] || reached.arrival.is_none();
         *known = reached;
-        if is_news && bends {
+        if is_news {
             self.queue.push(reached.distance, Step::Vertex(vertex));
         }
     }
 
-    /// Paths bend at a vertex, or begin there.
+    /// Paths go on from a vertex: along its edges, and into the faces behind it if they bend or begin
+    /// there.
+    ///
+    /// Along edges they need not, but windows across needles may be lost to rounding; edges are not.
     fn bend(&mut self, vertex: u32) {
         let sides = self.sides;
         let Reached { distance, source, arrival, .. } = self.vertices[vertex as usize];
@@ -131,7 +133,7 @@ impl<'a> Propagation<'a> {
             return;
         }
         *bent = distance;
-        for side in sides.behind(vertex, arrival) {
+        for &side in sides.opposite(vertex) {
             let at = sides.get(side);
             for end in 0..2 {
                 let reached = Reached {
@@ -142,7 +144,11 @@ impl<'a> Propagation<'a> {
                 };
                 self.reach(at.ends[end], reached);
             }
-            self.send(side, at.apex, distance, vertex);
+        }
+        if self.can_bend[vertex as usize] || arrival.is_none() {
+            for side in sides.behind(vertex, arrival) {
+                self.send(side, sides.get(side).apex, distance, vertex);
+            }
         }
     }
 
