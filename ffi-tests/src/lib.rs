@@ -18,6 +18,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 /// The shared library that belongs to the running test.
 ///
@@ -38,16 +39,8 @@ pub fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }
 
-/// The command, built in the profile of the running test; usually cargo has done so already.
-///
-/// # Panics
-/// It cannot be built.
-#[must_use]
-pub fn heatpath() -> PathBuf {
-    program("heatpath-cli", "heatpath")
-}
-
-/// As [`heatpath`](fn@heatpath) any program of this workspace.
+/// A program of this workspace, built in the profile of the running test; usually cargo has done so
+/// already.
 ///
 /// # Panics
 /// It cannot be built.
@@ -60,6 +53,16 @@ pub fn program(package: &str, name: &str) -> PathBuf {
     // Tests run in the folder `deps` beside the programs.
     let test = std::env::current_exe().expect("a test program knows its path");
     test.ancestors().nth(2).expect("it lies in two folders").join(name)
+}
+
+/// The command.
+///
+/// # Panics
+/// It cannot be built.
+#[must_use]
+pub fn heatpath() -> &'static Path {
+    static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| program("heatpath-cli", "heatpath"));
+    &PROGRAM
 }
 
 /// An array of numpy: values in C order, of a type such as `"<f4"`.

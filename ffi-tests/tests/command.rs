@@ -62,7 +62,7 @@ fn agree_on_volumes(estimator: &str, number: u32) {
     write_volume(&raw, &volume);
     let heatpath = heatpath();
     let command = |name: &str, output: &Path, more: &[&str]| {
-        let mut command = Command::new(&heatpath);
+        let mut command = Command::new(heatpath);
         command.arg(name).arg(&volume).args(["--spacing", "1,1,2.5", "--source", "4,5.25,3"]);
         command.args(["--estimator", estimator, "--quiet", "-o"]).arg(output);
         run(command.args(more));

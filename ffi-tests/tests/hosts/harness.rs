@@ -1,6 +1,6 @@
 //! What all hosts share: how they are reported, and one installed heatpath.
 
-use heatpath_ffi_tests::{Prefix, heatpath, repository, run};
+use heatpath_ffi_tests::{Prefix, repository, run};
 use libtest_mimic::{Completion, Trial};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -78,11 +78,10 @@ pub(crate) fn compile(
     program
 }
 
-/// Runs the command on an image; `arguments` are its name, and what follows the image.
-pub(crate) fn heatpath_on(image: &Path, arguments: &[&str], output: &Path) {
-    let mut command = Command::new(heatpath());
-    command.arg(arguments[0]).arg(image).args(&arguments[1..]).args(["--quiet", "--force", "-o"]);
-    run(command.arg(output));
+/// Runs the command with some words and the file for the result.
+pub(crate) fn heatpath<'a>(words: impl IntoIterator<Item = &'a str>, output: &Path) {
+    let mut command = Command::new(heatpath_ffi_tests::heatpath());
+    run(command.args(words).args(["--quiet", "--force", "--output"]).arg(output));
 }
 
 /// The points of the only path in a CSV file of the command, which are also those that a program

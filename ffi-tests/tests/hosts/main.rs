@@ -6,7 +6,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod abi;
-mod command;
 mod debian;
 mod dicom;
 mod empty;

@@ -1,7 +1,7 @@
 //! `OpenCV`: parts of pictures, where they are in memory, in 8, 16 and 32 bits a channel.
 
 use crate::harness::{
-    Host, assert_same_path, has_cmake_and, heatpath_on, installed, npy_values, workplace,
+    Host, assert_same_path, has_cmake_and, heatpath, installed, npy_values, workplace,
 };
 use heatpath_ffi_tests::{npy, run};
 use std::fs;
@@ -100,8 +100,9 @@ fn opencv() {
         let (colour, part) = (depth.write_colour(name), depth.write_part(name, 0));
         let [printed, drawn, raw] = trace(&program, &colour, 2, name);
         let [npy, csv] = ["distances.npy", "path.csv"].map(|name| workplace("opencv").join(name));
-        heatpath_on(&part, &["distance", "--source", SOURCE], &npy);
-        heatpath_on(&part, &["path", "--source", SOURCE, "--end", END], &csv);
+        let image = part.to_str().unwrap();
+        heatpath(["distance", image, "--source", SOURCE], &npy);
+        heatpath(["path", image, "--source", SOURCE, "--end", END], &csv);
         assert!(raw == npy_values(&npy, PART[2] * PART[3]), "{name}: the distances differ");
         let printed = String::from_utf8(printed).unwrap();
         assert_same_path(&csv, &printed, 2);

@@ -1,8 +1,7 @@
 //! The plugin in a real Orthanc: what it answers about stored instances is what the command says.
 
-use crate::command::heatpath;
 use crate::dicom::{Pixels, SIZE};
-use crate::harness::{Host, has_cmake_and, has_program, installed, workplace};
+use crate::harness::{Host, has_cmake_and, has_program, heatpath, installed, workplace};
 use std::fs;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};

@@ -1,7 +1,6 @@
 //! The plugin in `ParaView`, without a window: its filters say what the command says.
 
-use crate::command::heatpath;
-use crate::harness::{Host, has_cmake_and, has_program, installed, workplace};
+use crate::harness::{Host, has_cmake_and, has_program, heatpath, installed, workplace};
 use heatpath_ffi_tests::{npy, repository, run, text};
 use std::collections::HashMap;
 use std::fs;

@@ -1,8 +1,7 @@
 //! The modules of 3D Slicer in programs of its kind: described to ctk-cli, Girder and nipype, and
 //! run by nipype, with the results of the command.
 
-use crate::command::heatpath;
-use crate::harness::{Host, workplace};
+use crate::harness::{Host, heatpath, workplace};
 use heatpath_ffi_tests::{program, repository, run};
 use std::fs;
 use std::path::{Path, PathBuf};

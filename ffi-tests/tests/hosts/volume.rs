@@ -1,6 +1,6 @@
 //! A volume without symmetry, turned and moved, and what the command says about it.
 
-use crate::harness::{assert_same_path, heatpath_on, npy_values, workplace};
+use crate::harness::{assert_same_path, heatpath, npy_values, workplace};
 use heatpath_ffi_tests::npy;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -61,9 +61,9 @@ pub(crate) fn command_agrees(kind: &str, host: &str, printed: &str) -> Vec<u8> {
     // A path runs from the end to the source.
     let (end, source) = (printed.lines().next().unwrap(), printed.lines().next_back().unwrap());
     let spacing = argument(SPACING);
-    let common = ["--spacing", &spacing, "--source", source];
-    heatpath_on(&volume, &[&["distance"], &common[..]].concat(), &distances);
-    heatpath_on(&volume, &[&["path"], &common[..], &["--end", end]].concat(), &path);
+    let common = [volume.to_str().unwrap(), "--spacing", &spacing, "--source", source];
+    heatpath([&["distance"], &common[..]].concat(), &distances);
+    heatpath([&["path"], &common[..], &["--end", end]].concat(), &path);
     assert_same_path(&path, printed, 3);
     npy_values(&distances, SIZE.iter().product())
 }

@@ -75,6 +75,18 @@ pub enum Kind {
     },
 }
 
+impl Kind {
+    /// A file that may be read as well.
+    pub(crate) const fn input(kind: FileKind) -> Self {
+        Self::File { kind, channel: Channel::Input, position: None }
+    }
+
+    /// The file for the result, the second word.
+    pub(crate) const fn result(kind: FileKind) -> Self {
+        Self::File { kind, channel: Channel::Output, position: Some(1) }
+    }
+}
+
 /// What is in a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FileKind {

@@ -3,7 +3,6 @@
 #include <vtkAlgorithm.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -14,44 +13,6 @@
 #include <cmath>
 #include <map>
 #include <string>
-
-std::uint32_t heatpathType(vtkDataArray *array)
-{
-    const bool isFloat = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-    const bool isSigned = array->GetDataTypeMin() < 0;
-    switch (array->GetDataTypeSize()) {
-    case 1:
-        return isSigned ? HP_I8 : HP_U8;
-    case 2:
-        return isSigned ? HP_I16 : HP_U16;
-    case 4:
-        return isFloat ? HP_F32 : isSigned ? HP_I32 : HP_U32;
-    case 8:
-        return isFloat ? HP_F64 : isSigned ? HP_I64 : HP_U64;
-    default:
-        return 0;
-    }
-}
-
-hp_array describeTuples(vtkDataArray *array)
-{
-    hp_array list;
-    hp_array_init(&list, sizeof list);
-    list.type = heatpathType(array);
-    list.data = array->GetVoidPointer(0);
-    list.count = static_cast<std::uint64_t>(array->GetNumberOfTuples());
-    return list;
-}
-
-hp_array describeNumbers(const std::vector<double> &numbers, int width)
-{
-    hp_array list;
-    hp_array_init(&list, sizeof list);
-    list.type = HP_F64;
-    list.data = const_cast<double *>(numbers.data());
-    list.count = numbers.size() / static_cast<std::size_t>(width);
-    return list;
-}
 
 int heatpathProgress(double finished, void *algorithm)
 {

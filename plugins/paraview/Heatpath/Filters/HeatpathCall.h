@@ -1,24 +1,14 @@
-// What the filters share: VTK's memory described to heatpath, and paths as lines.
+// What the filters share: progress, points, and paths as lines.
 #pragma once
 
-#include <heatpath.h>
+#include <vtkPolyData.h>
 
-#include <cstdint>
+#include <heatpath.hpp>
+
 #include <functional>
 #include <vector>
 
-class vtkDataArray;
 class vtkDataSet;
-class vtkPolyData;
-
-// HP_U8, ...; 0 if heatpath has no such type.
-std::uint32_t heatpathType(vtkDataArray *array);
-
-// The tuples of an array where they are.
-hp_array describeTuples(vtkDataArray *array);
-
-// Items of `width` numbers each.
-hp_array describeNumbers(const std::vector<double> &numbers, int width);
 
 // An hp_progress whose user is a vtkAlgorithm: shows the progress there, and cancels if it should.
 int heatpathProgress(double finished, void *algorithm);

@@ -107,7 +107,7 @@ bool vtkHeatpathImageFilter::Describe(vtkImageData *image, hp_buffer &buffer)
         return false;
     }
     hp_buffer_init(&buffer, sizeof buffer);
-    buffer.type = heatpathType(scalars);
+    buffer.type = heatpath::type_of_vtk(scalars->GetDataType());
     const int bytes = scalars->GetDataTypeSize();
     buffer.data = static_cast<char *>(scalars->GetVoidPointer(0)) + this->Component * bytes;
     const int *size = image->GetDimensions();

@@ -20,14 +20,14 @@ int vtkHeatpathMeshDistance::RequestData(vtkInformation *, vtkInformationVector 
     if (!solver)
         return this->GetAbortExecute();
     const auto places = pointsOf(vtkDataSet::GetData(inputs[1]));
-    const hp_array positions = describeNumbers(places, 3);
+    const heatpath::Array positions(places.data(), places.size() / 3);
     hp_surface_points sources;
     hp_surface_points_init(&sources, sizeof sources);
     sources.positions = &positions;
     vtkNew<vtkDoubleArray> distances;
     distances->SetName("Distance");
     distances->SetNumberOfTuples(surface->GetNumberOfPoints());
-    const hp_array target = describeTuples(distances);
+    const heatpath::Array target = heatpath::array(distances);
     const hp_status status =
         hp_mesh_solver_distances(solver, &sources, &options, &target, 0, nullptr, 0);
     hp_mesh_solver_free(solver);

@@ -48,9 +48,9 @@ hp_mesh_solver *vtkHeatpathMeshFilter::Prepare(vtkPolyData *surface, const hp_me
         vtkErrorMacro("the surface must have polygons and no strips: put Triangulate before");
         return nullptr;
     }
-    const hp_array points = describeTuples(surface->GetPoints()->GetData());
-    const hp_array corners = describeTuples(surface->GetPolys()->GetConnectivityArray());
-    const hp_array starts = describeTuples(surface->GetPolys()->GetOffsetsArray());
+    const heatpath::Array points = heatpath::array(surface->GetPoints()->GetData());
+    const heatpath::Array corners = heatpath::array(surface->GetPolys()->GetConnectivityArray());
+    const heatpath::Array starts = heatpath::array(surface->GetPolys()->GetOffsetsArray());
     hp_mesh *mesh = nullptr;
     hp_mesh_solver *solver = nullptr;
     hp_status status = hp_mesh_create(&points, &corners, &starts, &options, &mesh);

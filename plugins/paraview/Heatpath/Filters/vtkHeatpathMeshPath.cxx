@@ -24,8 +24,8 @@ int vtkHeatpathMeshPath::RequestData(vtkInformation *, vtkInformationVector **in
         return this->GetAbortExecute();
     const auto places = pointsOf(vtkDataSet::GetData(inputs[1]));
     const auto endPlaces = pointsOf(vtkDataSet::GetData(inputs[2]));
-    const hp_array positions = describeNumbers(places, 3);
-    const hp_array endPositions = describeNumbers(endPlaces, 3);
+    const heatpath::Array positions(places.data(), places.size() / 3);
+    const heatpath::Array endPositions(endPlaces.data(), endPlaces.size() / 3);
     hp_surface_points sources;
     hp_surface_points_init(&sources, sizeof sources);
     hp_surface_points ends = sources;

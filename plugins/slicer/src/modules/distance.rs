@@ -1,7 +1,7 @@
 //! Distances in volumes.
 
 use super::shared::{DETAILS, INPUT_VOLUME, MASK, MEDIUM, METHOD, SOURCE, SOURCES_FILE};
-use crate::module::{Channel, FileKind, Group, Kind, Module, Parameter};
+use crate::module::{FileKind, Group, Kind, Module, Parameter};
 
 /// `heatpath distance`
 pub const DISTANCE: Module = Module {
@@ -20,11 +20,7 @@ pub const DISTANCE: Module = Module {
                     label: "Distances",
                     description: "The distances; infinite where nothing was reached",
                     option: "--output",
-                    kind: Kind::File {
-                        kind: FileKind::Image,
-                        channel: Channel::Output,
-                        position: Some(1),
-                    },
+                    kind: Kind::result(FileKind::Image),
                 },
                 SOURCE,
                 SOURCES_FILE,

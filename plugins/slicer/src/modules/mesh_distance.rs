@@ -30,11 +30,7 @@ pub const MESH_DISTANCE: Module = Module {
                     label: "Output model",
                     description: "The surface with the array distance",
                     option: "--output",
-                    kind: Kind::File {
-                        kind: FileKind::Geometry,
-                        channel: Channel::Output,
-                        position: Some(1),
-                    },
+                    kind: Kind::result(FileKind::Geometry),
                 },
                 SOURCE,
                 SOURCES_FILE,

@@ -1,7 +1,7 @@
 //! Paths in volumes.
 
 use super::shared::{DETAILS, INPUT_VOLUME, MASK, MEDIUM, METHOD, SOURCE, SOURCES_FILE};
-use crate::module::{Channel, FileKind, Group, Kind, Module, Parameter};
+use crate::module::{FileKind, Group, Kind, Module, Parameter};
 
 /// `heatpath path`
 pub const PATH: Module = Module {
@@ -20,11 +20,7 @@ pub const PATH: Module = Module {
                     label: "Paths",
                     description: "The paths as lines, each from its end to a source",
                     option: "--output",
-                    kind: Kind::File {
-                        kind: FileKind::Geometry,
-                        channel: Channel::Output,
-                        position: Some(1),
-                    },
+                    kind: Kind::result(FileKind::Geometry),
                 },
                 SOURCE,
                 Parameter {
@@ -40,11 +36,7 @@ pub const PATH: Module = Module {
                     label: "File of ends",
                     description: "More ends from a file: CSV or JSON, in the same coordinates (LPS, mm)",
                     option: "--ends",
-                    kind: Kind::File {
-                        kind: FileKind::Any,
-                        channel: Channel::Input,
-                        position: None,
-                    },
+                    kind: Kind::input(FileKind::Any),
                 },
                 MASK,
             ],

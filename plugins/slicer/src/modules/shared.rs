@@ -23,7 +23,7 @@ pub(super) const SOURCES_FILE: Parameter = Parameter {
     label: "File of sources",
     description: "More sources from a file: CSV or JSON, in the same coordinates (LPS, mm)",
     option: "--sources",
-    kind: Kind::File { kind: FileKind::Any, channel: Channel::Input, position: None },
+    kind: Kind::input(FileKind::Any),
 };
 
 pub(super) const MASK: Parameter = Parameter {
@@ -31,7 +31,7 @@ pub(super) const MASK: Parameter = Parameter {
     label: "Mask",
     description: "A label map of the same size whose zeros are walls",
     option: "--mask",
-    kind: Kind::File { kind: FileKind::LabelMap, channel: Channel::Input, position: None },
+    kind: Kind::input(FileKind::LabelMap),
 };
 
 pub(super) const RANGE: Parameter = Parameter {
@@ -82,7 +82,7 @@ pub(super) const ANISOTROPY: Parameter = Parameter {
 pub(super) const FARTHEST: Parameter = Parameter {
     name: "farthest",
     label: "Farthest",
-    description: "Exact distances (eikonal) end here; 0: no end",
+    description: "Distances end here, in volumes those of eikonal; 0: no end",
     option: "--farthest",
     kind: Kind::Number { usual: 0.0 },
 };

@@ -23,11 +23,7 @@ pub const VESSEL_TREE: Module = Module {
                     label: "Tree",
                     description: "The branches as lines, with the radius at each point",
                     option: "--output",
-                    kind: Kind::File {
-                        kind: FileKind::Geometry,
-                        channel: Channel::Output,
-                        position: Some(1),
-                    },
+                    kind: Kind::result(FileKind::Geometry),
                 },
                 SOURCE,
                 SOURCES_FILE,
