@@ -650,6 +650,12 @@ fn the_corner_behind_a_needle() {
     nearly_degenerate_mesh(9, 5_185_247_509_989_638_859, -13);
 }
 
+/// The height of a needle had half its digits.
+#[test]
+fn a_path_across_a_needle() {
+    nearly_degenerate_mesh(6, 17_644_585_697_716_804_029, -5);
+}
+
 /// Vertices on a coarse lattice, off it by next to nothing: needles, caps and folds.
 fn nearly_degenerate_mesh(n: usize, seed: u64, exponent: i32) {
     let base = rough(n, seed, 3.0);
@@ -661,16 +667,18 @@ fn nearly_degenerate_mesh(n: usize, seed: u64, exponent: i32) {
     let source = (seed % (n as u64 + 1).pow(2)) as u32;
     let exact = Exact::new(&medium).unwrap();
     let paths = from(&exact, &mesh, &[mesh.at_vertex("source", 0, source).unwrap()]);
-    let graph = on_graph(&medium, source, 9);
+    // Across needles a way on the graph is up to a step of it longer.
+    let (graph, steps) = (on_graph(&medium, source, 19), 20.0);
+    let step = medium.lengths().iter().copied().fold(0.0, f64::max) / steps;
     for (vertex, upper) in graph.iter().enumerate() {
         let found = paths.map().values()[vertex];
-        assert!(found <= upper + 1e-9 && *upper <= found * 1.1 + 1e-9, "{found} {upper}");
+        assert!(found <= upper + 1e-9 && *upper <= found * 1.1 + step, "{found} {upper}");
         let end = mesh.at_vertex("end", 0, vertex as u32).unwrap();
         let path = paths.path(&end).unwrap();
         assert_eq!(path.ending, Ending::Source(0));
         // Of needles, lengths leave fewer digits; lengths that were mollified are not those in space.
         let error = (path.length - found).abs();
-        assert!(medium.mollified() > 0.0 || error <= 1e-8 * found, "{} {found}", path.length);
+        assert!(medium.mollified() > 0.0 || error <= 1e-10 * found, "{} {found}", path.length);
     }
 }
 

@@ -21,10 +21,12 @@ pub(crate) fn cotangents(sides: [f64; 3]) -> [f64; 3] {
 
 /// Where the third corner lies if the first is at the origin and the second at `(sides[2], 0)`; its
 /// second coordinate is not negative.
+///
+/// The height is that of the area: from `b` and the first coordinate, of a needle half its digits
+/// would be lost.
 pub(crate) fn third_corner(sides: [f64; 3]) -> [f64; 2] {
     let [a, b, c] = sides;
-    let x = (b * b + (c - a) * (c + a)) / (2.0 * c);
-    [x, ((b - x) * (b + x)).max(0.0).sqrt()]
+    [(b * b + (c - a) * (c + a)) / (2.0 * c), 2.0 * area(sides) / c]
 }
 
 #[cfg(test)]
@@ -38,5 +40,13 @@ mod tests {
         assert_eq!(third_corner(sides), [0.0, 4.0]);
         assert_eq!(cotangents(sides), [0.0, 0.75, 4.0 / 3.0]);
         assert_eq!(area([3.0, 1.0, 1.0]), 0.0);
+    }
+
+    #[test]
+    fn the_height_of_a_needle() {
+        let width = 2_f64.powi(-20);
+        let sides = [width, (1.0 + width * width).sqrt(), 1.0];
+        let [x, y] = third_corner(sides);
+        assert!((x - 1.0).abs() < 1e-15 && (y / width - 1.0).abs() < 1e-10, "{x} {y}");
     }
 }
