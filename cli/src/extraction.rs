@@ -57,6 +57,7 @@ impl<const D: usize> Extraction<'_, D> {
             length: branch.length,
             physical_length: branch.physical_length,
             distance: NOT_REACHED,
+            cost: f64::NAN,
         };
         self.graph.branches.iter().map(path).collect()
     }

@@ -20,6 +20,13 @@ pub(crate) fn tell(out: &OutputArgs, message: &str) {
     }
 }
 
+/// Tells what to be careful of, on standard error, unless asked to be quiet.
+pub(crate) fn warn(out: &OutputArgs, message: &str) {
+    if !out.quiet {
+        drop(writeln!(io::stderr(), "warning: {message}"));
+    }
+}
+
 /// Prints one JSON object on standard output.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string(value).map_err(Failure::file)?;

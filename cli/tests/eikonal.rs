@@ -78,6 +78,26 @@ fn paths_end_at_their_source_and_know_the_distance() {
 }
 
 #[test]
+fn a_path_that_is_no_shortest_one_is_told() {
+    let bench = Bench::new();
+    // Three corridors, joined at the right and at the left.
+    let is_open = |x: usize, y: usize| y % 12 < 3 || if y < 12 { x > 40 } else { x < 3 };
+    bench.write_npy("bends.npy", &[27, 44], |i| if is_open(i % 44, i / 44) { 1.0 } else { 1e-4 });
+    let path = "path bends.npy --medium file --medium-file bends.npy --source 1,1 --end 42,25 \
+                --force -o p.json";
+    let stderr =
+        |options: &str| String::from_utf8(bench.run(&format!("{path} {options}")).stderr).unwrap();
+    assert!(stderr("").contains("warning: path 0 costs"), "{}", stderr(""));
+    assert!(stderr("").contains("--estimator eikonal"), "{}", stderr(""));
+    assert!(!stderr("--estimator eikonal").contains("warning"));
+    assert_eq!(stderr("--quiet"), "");
+    let curves = bench.json(&format!("{path} --estimator eikonal --json"));
+    let [cost, distance] =
+        ["cost", "distance"].map(|key| curves["paths"][0][key].as_f64().unwrap());
+    assert!(cost < 1.5 * distance, "{cost} {distance}");
+}
+
+#[test]
 fn walls_are_walked_around() {
     let bench = Bench::with_picture();
     let wall = |i: usize| f64::from(u8::from(i % 100 != 50 || i / 100 > 70));

@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use heatpath_core::Exec;
-use heatpath_core::grid::distance::normalized;
+use heatpath_core::grid::distance::{Eikonal, EikonalOptions, normalized};
 use heatpath_core::grid::heat::{Duration, Explicit, Heat, HeatOptions, Step};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::path::{Descent, Ending, Path, PathOptions};
-use heatpath_core::grid::{Grid, Mask, PointError, Shape, Sources};
+use heatpath_core::grid::{Grid, Mask, PointError, Shape, Sources, TensorField};
 use proptest::prelude::*;
 
 fn flow<const D: usize>(medium: &Medium<D>, sources: &[[f64; D]], options: HeatOptions) -> Heat<D> {
@@ -120,6 +120,55 @@ fn exposure_has_no_maximum_but_the_sources() {
         .collect();
     let source_cells = [[40, 50], [100, 10]].map(|index| image.shape().position(index));
     assert!(peaks.iter().all(|peak| source_cells.contains(peak)), "{peaks:?}");
+}
+
+#[test]
+fn the_cost_of_a_polyline() {
+    let shape = Shape::with_spacing([40, 30], [0.5, 2.0]).unwrap();
+    let line = [[3.0, 4.0], [15.0, 4.0], [30.0, 20.0]];
+    let straight: f64 = line.windows(2).map(|p| shape.physical_distance(p[0], p[1])).sum();
+    assert!((medium::uniform(shape).cost(&line) - straight).abs() < 1e-12);
+    assert_eq!(medium::uniform(shape).cost(&line[..1]), 0.0);
+    // The squared speed grows linearly: the integral of 0.5 dx / sqrt(1 + x).
+    let speed_sq = Grid::from_fn(shape, |[x, _]| 1.0 + x as f64);
+    let walls = Grid::from_fn(shape, |[x, y]| (x, y) != (20, 20));
+    let rising = medium::given(speed_sq, Form::Pointwise).unwrap();
+    let rising = rising.with_walls(Mask::new(walls)).unwrap();
+    let (cost, exact) = (rising.cost(&[[3.2, 7.0], [30.7, 7.0]]), 31.7_f64.sqrt() - 4.2_f64.sqrt());
+    assert!((cost / exact - 1.0).abs() < 1e-4, "{cost} for {exact}");
+    assert_eq!(rising.cost(&[[20.0, 15.0], [20.0, 25.0]]), f64::INFINITY);
+    // A tensor with the inverse [[2, 1], [1, 3]].
+    let matrix = [[0.6, -0.2], [-0.2, 0.4]];
+    let tensor = medium::given_tensor(TensorField::from_fn(shape, |_| matrix)).unwrap();
+    let ([dx, dy], cost) = ([5.0, 8.0], tensor.cost(&[[10.0, 9.0], [20.0, 13.0]]));
+    let exact = f64::sqrt(2.0 * dx * dx + 2.0 * dx * dy + 3.0 * dy * dy);
+    assert!((cost / exact - 1.0).abs() < 1e-12, "{cost} for {exact}");
+}
+
+/// The shortest path leads along a serpentine of 280 pixels between walls of 9 slow pixels. Heat of few
+/// steps cannot follow it, and heat of many is lost to the walls, which stay cold.
+#[test]
+fn a_short_cut_costs_more_than_its_distance() {
+    let serpentine = Grid::from_fn(Shape::new([61, 61]).unwrap(), |[x, y]| {
+        let bend = if y % 24 < 12 { 58..61 } else { 0..3 };
+        if y % 12 < 3 || bend.contains(&x) { 1.0 } else { 1e-4 }
+    });
+    let medium = medium::given(serpentine, Form::Pointwise).unwrap();
+    let (source, end) = ([1.0, 1.0], [1.0, 49.0]);
+    for steps in [122, 4000] {
+        let options =
+            HeatOptions { duration: Duration::Iterations(steps), ..HeatOptions::default() };
+        let path = &paths(&medium, &[source], &[end], options)[0];
+        assert_eq!(path.ending, Ending::Source(0));
+        assert!(path.length < 60.0 && path.cost > 2.0 * path.distance, "{path:?}");
+    }
+    let sources = Sources::new(&[source], medium.mask()).unwrap();
+    let exec = Exec::single_threaded();
+    let eikonal = Eikonal::new(&medium, &exec).unwrap();
+    let distances = eikonal.distance(&sources, &EikonalOptions::default(), &exec).unwrap();
+    let descent = Descent::of_distances(&distances, &sources, &medium);
+    let path = descent.path(end, &distances, PathOptions::default()).unwrap();
+    assert!(path.length > 250.0 && (path.cost / path.distance - 1.0).abs() < 0.05, "{path:?}");
 }
 
 #[test]

@@ -93,13 +93,14 @@ fn arrays<const D: usize>(curves: &Curves<D>) -> [vtp::LineArray; 4] {
 /// ```json
 /// { "version": 1, "dimension": 2, "spacing": [1.0, 1.0],
 ///   "paths": [ { "points": [[3.0, 4.0], [0.0, 0.0]], "length": 5.0, "physical_length": 5.0,
-///                "ended": "source", "source": 0, "end": [3.0, 4.0], "distance": 5.0 } ],
+///                "ended": "source", "source": 0, "end": [3.0, 4.0], "distance": 5.0,
+///                "cost": 5.0 } ],
 ///   "keypoints": [ { "point": [0.0, 0.0], "parent": null } ] }
 /// ```
 ///
 /// With a placement `origin` and `direction` (a unit vector for each axis) follow the spacing. `ended` is
 /// `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
-/// path ended at one, and `distance` is null where there is none. The key points are left out if there
+/// path ended at one, `distance` is null where there is none, and `cost` on meshes. The key points are left out if there
 /// are none; `parent` is the number of the key point at which one's path ends, null for seeds.
 #[must_use]
 pub fn curves_json<const D: usize>(curves: &Curves<D>) -> Value {
@@ -149,6 +150,8 @@ struct Entry<'a> {
     end: Option<&'a [f64]>,
     /// Infinity becomes null.
     distance: f64,
+    /// NaN becomes null.
+    cost: f64,
 }
 
 impl<'a> Document<'a> {
@@ -179,6 +182,7 @@ impl<'a> Entry<'a> {
             },
             end: path.points.first().map(<[f64; D]>::as_slice),
             distance: path.distance,
+            cost: path.cost,
         }
     }
 }

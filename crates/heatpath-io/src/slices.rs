@@ -207,6 +207,7 @@ impl<'a, const D: usize> Scene<'a, D> {
                 length: path.length,
                 physical_length: path.physical_length,
                 distance: path.distance,
+                cost: path.cost,
             })
             .collect()
     }

@@ -14,7 +14,14 @@ use std::fs;
 use tempfile::tempdir;
 
 fn path(points: &[[f64; 2]], ending: Ending, distance: f64) -> Path<2> {
-    Path { points: points.to_vec(), ending, length: 5.0, physical_length: 10.0, distance }
+    Path {
+        points: points.to_vec(),
+        ending,
+        length: 5.0,
+        physical_length: 10.0,
+        distance,
+        cost: distance,
+    }
 }
 
 fn some_curves() -> Curves<2> {
@@ -70,6 +77,7 @@ fn json_knows_volumes() {
         length: 0.0,
         physical_length: 0.0,
         distance: 0.0,
+        cost: 0.0,
     };
     let value = curves_json(&Curves {
         spacing: [1.0; 3],
@@ -92,6 +100,7 @@ fn volumes_have_a_column_more_and_no_drawing() {
         length: 0.0,
         physical_length: 0.0,
         distance: 0.0,
+        cost: 1.0,
     };
     let points = path.points.clone();
     let curves = Curves {

@@ -19,7 +19,14 @@ fn grey(size: [usize; 2], value: f64) -> Grid<f64, 2> {
 }
 
 fn path(points: &[[f64; 2]], ending: Ending) -> Path<2> {
-    Path { points: points.to_vec(), ending, length: 1.0, physical_length: 1.0, distance: 1.0 }
+    Path {
+        points: points.to_vec(),
+        ending,
+        length: 1.0,
+        physical_length: 1.0,
+        distance: 1.0,
+        cost: 1.0,
+    }
 }
 
 fn drawn_field(field: &Grid<f64, 2>, title: Option<&str>) -> RgbImage {

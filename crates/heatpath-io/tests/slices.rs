@@ -34,7 +34,14 @@ fn volume() -> Grid<f64, 3> {
 
 fn path() -> Path<3> {
     let points = (0..=240).rev().map(|i| helix(f64::from(i) * 0.05)).collect();
-    Path { points, ending: Ending::Source(0), length: 1.0, physical_length: 1.0, distance: 1.0 }
+    Path {
+        points,
+        ending: Ending::Source(0),
+        length: 1.0,
+        physical_length: 1.0,
+        distance: 1.0,
+        cost: 1.0,
+    }
 }
 
 fn drawn(volume: &Grid<f64, 3>, layers: &Overlay<'_, 3>) -> RgbImage {
@@ -116,6 +123,7 @@ fn curves_are_whole_on_projections_and_near_on_slices() {
         length: 1.0,
         physical_length: 1.0,
         distance: 1.0,
+        cost: 1.0,
     };
     let picture = drawn(&volume, &Overlay { paths: &[path], ..Overlay::default() });
     let cyan = |x: u32, y: u32| is_cyan(picture.get_pixel(x, y).0);

@@ -140,6 +140,12 @@ pub(crate) fn apply<const D: usize>(m: &Matrix<D>, v: [f64; D]) -> [f64; D] {
     std::array::from_fn(|row| (0..D).map(|column| m[row][column] * v[column]).sum())
 }
 
+/// The length of a vector in a metric.
+pub(crate) fn length<const D: usize>(metric: &Matrix<D>, vector: [f64; D]) -> f64 {
+    let covector = apply(metric, vector);
+    (0..D).map(|axis| vector[axis] * covector[axis]).sum::<f64>().sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

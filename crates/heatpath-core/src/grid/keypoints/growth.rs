@@ -146,12 +146,11 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     /// it begins, unless that way is known. What the two have in common, where the one key point lies
     /// on the way to the other, is left out.
     fn join(&mut self, to: usize, from: usize, path: &Path<D>, rest: &[[f64; D]]) {
-        let shape = *self.search.medium.shape();
         let (own, other) = parting(&path.points, rest);
         let mut points: Vec<[f64; D]> = rest[other..].iter().rev().copied().collect();
         points.extend(&path.points[own..]);
         points.dedup();
-        let path = Path::new(points, Ending::Source(to), path.distance, &shape);
+        let path = Path::new(points, Ending::Source(to), path.distance, self.search.medium);
         if self.is_new(to, from, &path) {
             self.links.push(Link { from, to, path });
         }

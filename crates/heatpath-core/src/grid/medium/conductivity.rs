@@ -49,16 +49,33 @@ pub(super) fn alpha<const D: usize>(
         check("reference value", reference, reference.is_finite(), "finite")?;
     }
     check("number of reference values", 0.0, !references.is_empty(), "at least 1")?;
+    let power = to_the(options.power);
     Ok(image.map(|&value| {
         let difference = references.iter().map(|r| (r - value).abs()).fold(f64::INFINITY, f64::min);
-        (1.0 - difference).abs().powf(options.power) + options.floor
+        power((1.0 - difference).abs()) + options.floor
     }))
+}
+
+/// Raises to a power; to a small whole one by multiplication, which is far faster.
+fn to_the(power: f64) -> impl Fn(f64) -> f64 {
+    let whole = (power.fract() == 0.0 && power <= 16.0).then_some(power as i32);
+    move |base| whole.map_or_else(|| base.powf(power), |whole| base.powi(whole))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::grid::Shape;
+
+    #[test]
+    fn powers_by_multiplication_are_powers() {
+        for power in [1.0, 2.0, 3.0, 6.0, 16.0, 2.5, 40.0] {
+            for base in [0.0, 0.03, 0.7, 1.0, 1.3_f64] {
+                let (found, expected) = (to_the(power)(base), base.powf(power));
+                assert!((found - expected).abs() <= 4e-15 * expected, "{base}^{power}: {found}");
+            }
+        }
+    }
 
     #[test]
     fn equation_6_in_numbers() {

@@ -48,6 +48,13 @@ pub struct Path<const D: usize> {
     pub physical_length: f64,
     /// The distance of the end point from its source, [`NOT_REACHED`] where there is none.
     pub distance: f64,
+    /// The length of the polyline in the metric of the medium ([`Medium::cost`]).
+    ///
+    /// Of a shortest path it is the distance. A cost well above the distance says that this is no
+    /// shortest path. Heat in media of strong contrast does not measure their metric: in few steps it
+    /// comes no further than their number, in many it is lost to slow cells, which stay cold.
+    /// [`Eikonal`](super::distance::Eikonal) finds the path there.
+    pub cost: f64,
 }
 
 impl<const D: usize> Path<D> {
@@ -55,12 +62,14 @@ impl<const D: usize> Path<D> {
         points: Vec<[f64; D]>,
         ending: Ending,
         distance: f64,
-        shape: &Shape<D>,
+        medium: &Medium<D>,
     ) -> Self {
+        let shape = medium.shape();
         Self {
             length: length(&points, &shape.unit_spacing()),
             physical_length: length(&points, shape),
             distance,
+            cost: medium.cost(&points),
             points,
             ending,
         }
@@ -156,7 +165,7 @@ impl<'a, const D: usize> Descent<'a, D> {
         let (points, ending) = self.trace(end, options);
         let reached = matches!(ending, Ending::Source(_));
         let distance = if reached { distances.at(end) } else { NOT_REACHED };
-        Ok(Path::new(points, ending, distance, self.shape()))
+        Ok(Path::new(points, ending, distance, self.medium))
     }
 
     pub(crate) fn medium(&self) -> &'a Medium<D> {

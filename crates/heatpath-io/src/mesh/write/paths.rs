@@ -43,6 +43,7 @@ pub fn mesh_curves(paths: &[MeshPath]) -> Curves<3> {
         length: path.length,
         physical_length: path.length,
         distance: path.distance,
+        cost: f64::NAN,
     };
     Curves {
         spacing: [1.0; 3],

@@ -4,7 +4,7 @@ use super::stencil::Stencil;
 use crate::grid::Matrix;
 use crate::grid::medium::Medium;
 use crate::grid::source::shares;
-use crate::grid::tensor::{apply, inverse, per_cell};
+use crate::grid::tensor::{inverse, length, per_cell};
 
 /// A source as the cells around it see it.
 #[derive(Clone, Debug)]
@@ -48,10 +48,4 @@ impl<const D: usize> Seed<D> {
 /// The metric in a cell, per squared pixel.
 fn metric_of<const D: usize>(medium: &Medium<D>, cell: usize) -> Matrix<D> {
     inverse(&per_cell(&medium.speed_sq_tensor(cell), medium.shape()))
-}
-
-/// The length of a vector in a metric.
-fn length<const D: usize>(metric: &Matrix<D>, vector: [f64; D]) -> f64 {
-    let covector = apply(metric, vector);
-    (0..D).map(|axis| vector[axis] * covector[axis]).sum::<f64>().sqrt()
 }
