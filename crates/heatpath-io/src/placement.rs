@@ -149,6 +149,16 @@ impl Geometry {
     }
 }
 
+/// From RAS to LPS, and back: x and y change their sign.
+pub(crate) fn ras_to_lps(vector: Vector) -> Vector {
+    mirrored(vector, [-1.0, -1.0, 1.0])
+}
+
+/// With a sign for each coordinate; a 0 is never negative.
+pub(crate) fn mirrored(vector: Vector, signs: Vector) -> Vector {
+    std::array::from_fn(|row| signs[row] * vector[row] + 0.0)
+}
+
 fn length(vector: Vector) -> f64 {
     dot(vector, vector).sqrt()
 }

@@ -23,17 +23,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let claimed = [u64::from(width), u64::from(height)];
     let size = input.check_size(&claimed, (claimed[0] * claimed[1]).div_ceil(PIXELS_A_BYTE))?;
     let (samples, channels) = input.samples(decoder)?;
-    Ok(Raster {
-        format: input.format,
-        size,
-        channels,
-        sample: SampleType::U8,
-        samples,
-        white: Some(255.0),
-        pages: 1,
-        channel_axis: false,
-        geometry: None,
-    })
+    Ok(Raster::new(input.format, size, channels, (SampleType::U8, samples), Some(255.0)))
 }
 
 /// Whether the markers of the file lead to an end-of-image marker.

@@ -107,6 +107,19 @@ pub(crate) struct Raster {
 }
 
 impl Raster {
+    /// The first picture of a file, or its volume, without a place; samples with the type in which they
+    /// are stored.
+    fn new(
+        format: Format,
+        size: Vec<usize>,
+        channels: usize,
+        (sample, samples): (SampleType, Samples),
+        white: Option<f64>,
+    ) -> Self {
+        let (pages, channel_axis, geometry) = (1, false, None);
+        Self { format, size, channels, sample, samples, white, pages, channel_axis, geometry }
+    }
+
     /// The dimensions in which it can be read, the likelier one first.
     pub(crate) fn dimensions(&self) -> &'static [usize] {
         match self.size.len() {

@@ -20,17 +20,8 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     if let Some(shape) = fortran {
         samples = samples.reordered(|i| fortran_position(&shape, i));
     }
-    Ok(Raster {
-        format: input.format,
-        size,
-        channels,
-        sample,
-        samples,
-        white: sample.white(),
-        pages: 1,
-        channel_axis,
-        geometry: None,
-    })
+    let raster = Raster::new(input.format, size, channels, (sample, samples), sample.white());
+    Ok(Raster { channel_axis, ..raster })
 }
 
 /// An array of shape (values,) or (values, 1).

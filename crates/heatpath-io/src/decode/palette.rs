@@ -54,6 +54,15 @@ pub(super) fn as_grey(bytes: &[u8]) -> Option<Vec<u8>> {
     Some(copy)
 }
 
+/// The samples of a picture.
+pub(super) struct Coloured {
+    pub(super) channels: usize,
+    pub(super) sample: SampleType,
+    pub(super) samples: Samples,
+    /// The value of white, if there is one.
+    pub(super) white: Option<f64>,
+}
+
 /// The picture with each sample replaced by its colour: all reds, all greens and all blues stand in
 /// a row in `colours`. A list of greys gives a grey picture.
 pub(super) fn resolved(places: &Raster, colours: &[u16]) -> Result<Raster, String> {
@@ -65,18 +74,24 @@ pub(super) fn resolved(places: &Raster, colours: &[u16]) -> Result<Raster, Strin
     if let Some(&beyond) = indices.iter().find(|&&i| usize::from(i) >= length) {
         return Err(format!("colour {beyond} is not in the palette of {length} colours"));
     }
+    let Coloured { channels, sample, samples, white } =
+        coloured(indices.iter().map(|&i| usize::from(i)), colours);
+    let size = places.size.clone();
+    Ok(Raster { size, channels, sample, samples, white, ..*places })
+}
+
+/// The colours at places in such a list, which are all in it.
+pub(super) fn coloured(places: impl Iterator<Item = usize>, colours: &[u16]) -> Coloured {
+    let length = colours.len() / 3;
     let channels = if is_grey(colours, length) { 1 } else { 3 };
-    let values = indices
-        .iter()
-        .flat_map(|&i| (0..channels).map(move |c| colours[usize::from(i) + c * length]));
+    let values = places.flat_map(|i| (0..channels).map(move |c| colours[i + c * length]));
     // Palettes have 16 bits; most are 8-bit colours in both bytes.
     let (samples, sample, white) = if colours.iter().all(|colour| colour % 257 == 0) {
         (Samples::U8(values.map(|value| (value >> 8) as u8).collect()), SampleType::U8, 255.0)
     } else {
         (Samples::U16(values.collect()), SampleType::U16, 65535.0)
     };
-    let size = places.size.clone();
-    Ok(Raster { size, channels, sample, samples, white: Some(white), ..*places })
+    Coloured { channels, sample, samples, white: Some(white) }
 }
 
 fn is_grey(colours: &[u16], length: usize) -> bool {

@@ -32,17 +32,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         Samples::U16(values) => (Samples::U16(values), SampleType::U16, 65535.0),
         other => (other, SampleType::U8, 255.0),
     };
-    Ok(Raster {
-        format: input.format,
-        size,
-        channels,
-        sample,
-        samples,
-        white: Some(white),
-        pages: 1,
-        channel_axis: false,
-        geometry: None,
-    })
+    Ok(Raster::new(input.format, size, channels, (sample, samples), Some(white)))
 }
 
 /// Reads the size from the first chunk, which every PNG begins with.

@@ -22,17 +22,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
         _ => SampleType::U8,
     };
     let white = Some(f64::from(white));
-    Ok(Raster {
-        format: input.format,
-        size,
-        channels,
-        sample,
-        samples,
-        white,
-        pages: 1,
-        channel_axis: false,
-        geometry: None,
-    })
+    Ok(Raster::new(input.format, size, channels, (sample, samples), white))
 }
 
 fn check_header(input: &Input<'_>, header: &PnmHeader) -> Result<Vec<usize>, ReadError> {

@@ -52,19 +52,10 @@ fn decode_file(input: &Input<'_>, mut file: File<'_>) -> Result<Raster, ReadErro
     if samples.len() != size.iter().product::<usize>() * channels {
         return Err(input.broken("the number of samples does not fit the size"));
     }
-    let (format, white) = (input.format, white(sample, first.colour.bit_depth()));
+    let white = white(sample, first.colour.bit_depth());
     let pages = 1 + further.iter().filter(|page| page.is_ok()).count();
-    Ok(Raster {
-        format,
-        size,
-        channels,
-        sample,
-        samples,
-        white,
-        pages,
-        channel_axis: false,
-        geometry: None,
-    })
+    let raster = Raster::new(input.format, size, channels, (sample, samples), white);
+    Ok(Raster { pages, ..raster })
 }
 
 /// A page before it is decoded.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a helper that fails is a test that fails")]
 #![allow(dead_code, reason = "each test program uses a part of this")]
 
+pub(crate) mod codecs;
 pub(crate) mod volumes;
 
 use heatpath_core::grid::{Grid, Mask};

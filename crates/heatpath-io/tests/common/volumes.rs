@@ -1,5 +1,6 @@
 //! Small medical volumes, made in memory.
 
+use super::codecs::{JPEG_2000, JPEG_LS};
 use flate2::Compression;
 use flate2::write::{GzEncoder, ZlibEncoder};
 use heatpath_io::ImageFile;
@@ -50,6 +51,8 @@ pub(crate) struct Nifti {
     pub(crate) qform: Option<[f64; 6]>,
     pub(crate) sform: Option<[[f64; 4]; 3]>,
     pub(crate) magic: &'static [u8; 4],
+    /// Where the numbers are said to begin after the header; 0 if in another file.
+    pub(crate) offset: u16,
 }
 
 impl Default for Nifti {
@@ -65,6 +68,7 @@ impl Default for Nifti {
             qform: None,
             sform: None,
             magic: b"n+1\0",
+            offset: 4,
         }
     }
 }
@@ -77,12 +81,14 @@ impl Nifti {
         self.dim(&mut out, 0, self.size.len() as u64);
         self.size.iter().enumerate().for_each(|(i, &n)| self.dim(&mut out, i + 1, n));
         self.put(&mut out, at(70, 12), &self.kind.to_le_bytes());
+        let end = at(348, 540) as i64;
+        let offset = if self.offset == 0 { 0 } else { end + i64::from(self.offset) };
         for (i, spacing) in [self.handed, 1.0, 2.0, 4.0].into_iter().enumerate() {
             self.float(&mut out, at(76, 104), i, spacing);
         }
         match self.is_second {
-            true => self.put(&mut out, 168, &544_i64.to_le_bytes()),
-            false => self.float(&mut out, 108, 0, 352.0),
+            true => self.put(&mut out, 168, &offset.to_le_bytes()),
+            false => self.float(&mut out, 108, 0, offset as f64),
         }
         for (i, value) in self.scale.into_iter().enumerate() {
             self.float(&mut out, at(112, 176), i, value);
@@ -136,10 +142,15 @@ impl Nifti {
 }
 
 /// A DICOM file by hand, of 3 x 2 pixels from 0 to 5.
+#[derive(Clone)]
 pub(crate) struct Dicom {
     pub(crate) syntax: &'static str,
     pub(crate) colours: &'static str,
-    pub(crate) bits: u16,
+    /// Columns and rows.
+    pub(crate) size: [u16; 2],
+    /// Of a pixel, and those of them that count.
+    pub(crate) bits: [u16; 2],
+    pub(crate) is_signed: bool,
     /// Tags, their value representations and values; a sequence has no end of its own.
     pub(crate) more: Vec<(u32, [u8; 2], Vec<u8>)>,
     /// Raw, or the pieces of what is compressed.
@@ -152,7 +163,9 @@ impl Default for Dicom {
         Self {
             syntax: "1.2.840.10008.1.2.1",
             colours: "MONOCHROME2 ",
-            bits: 16,
+            size: [3, 2],
+            bits: [16, 16],
+            is_signed: false,
             more: Vec::new(),
             pixels: vec![pixels],
         }
@@ -168,15 +181,16 @@ impl Dicom {
             is_implicit: self.syntax == "1.2.840.10008.1.2",
             is_big_endian: self.syntax == "1.2.840.10008.1.2.2",
         };
+        let is_grey = self.colours.starts_with(['M', 'P']);
         let mut elements = vec![(0x0028_0004, *b"CS", self.colours.as_bytes().to_vec())];
         for (tag, value) in [
-            (0x0028_0002, 1),
-            (0x0028_0010, 2),
-            (0x0028_0011, 3),
-            (0x0028_0100, self.bits),
-            (0x0028_0101, self.bits),
-            (0x0028_0102, self.bits - 1),
-            (0x0028_0103, 0),
+            (0x0028_0002, if is_grey { 1 } else { 3 }),
+            (0x0028_0010, self.size[1]),
+            (0x0028_0011, self.size[0]),
+            (0x0028_0100, self.bits[0]),
+            (0x0028_0101, self.bits[1]),
+            (0x0028_0102, self.bits[1] - 1),
+            (0x0028_0103, u16::from(self.is_signed)),
         ] {
             elements.push((tag, *b"US", body.order(value.to_le_bytes().to_vec())));
         }
@@ -237,6 +251,45 @@ impl Writer {
     }
 }
 
+/// An item of a sequence of defined length, of little-endian elements with their representations.
+pub(crate) fn item(elements: &[(u32, [u8; 2], &[u8])]) -> Vec<u8> {
+    let writer = Writer { is_implicit: false, is_big_endian: false };
+    let mut content = Vec::new();
+    for (tag, kind, value) in elements {
+        writer.element(&mut content, *tag, *kind, value);
+        if kind == b"SQ" {
+            content.extend(SEQUENCE_END);
+        }
+    }
+    let mut out = b"\xfe\xff\0\xe0".to_vec();
+    out.extend((content.len() as u32).to_le_bytes());
+    [out, content].concat()
+}
+
+/// The end of a sequence of undefined length.
+pub(crate) const SEQUENCE_END: [u8; 8] = *b"\xfe\xff\xdd\xe0\0\0\0\0";
+
+/// A file of 3 x 2 x n pixels from 0 on, whose frames say at which height they lie.
+pub(crate) fn frames(heights: &[f64]) -> Dicom {
+    let measures = item(&[(0x0028_0030, *b"DS", b"0.5\\0.25")]);
+    let turn = item(&[(0x0020_0037, *b"DS", b"1\\0\\0\\0\\1\\0 ")]);
+    let shared = item(&[(0x0020_9116, *b"SQ", &turn), (0x0028_9110, *b"SQ", &measures)]);
+    let frame = |height: &f64| {
+        let position = item(&[(0x0020_0032, *b"DS", format!("1\\2\\{height:<4}").as_bytes())]);
+        item(&[(0x0020_9113, *b"SQ", &position)])
+    };
+    let frames: Vec<u8> = heights.iter().flat_map(frame).chain(SEQUENCE_END).collect();
+    Dicom {
+        more: vec![
+            (0x0028_0008, *b"IS", format!("{:<2}", heights.len()).into_bytes()),
+            (0x5200_9229, *b"SQ", [shared, SEQUENCE_END.to_vec()].concat()),
+            (0x5200_9230, *b"SQ", frames),
+        ],
+        pixels: vec![(0..6 * heights.len() as u16).flat_map(u16::to_le_bytes).collect()],
+        ..Dicom::default()
+    }
+}
+
 /// A small valid file of every format and compression, with a name each.
 pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
     let place = "space: RAS\nspace directions: (0,1,0) (2,0,0) (0,0,3)\nspace origin: (1,2,3)";
@@ -248,8 +301,14 @@ pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
     let jpeg = super::jpeg(&[77; 6], [3, 2], image::ExtendedColorType::L8);
     let mut rle = [&[2, 0, 0, 0, 64, 0, 0, 0, 66][..], &[0; 55]].concat();
     rle.extend([251, 0, 5, 0, 1, 2, 3, 4, 5]);
-    let dicom =
-        |syntax, bits, pixels| Dicom { syntax, bits, pixels: vec![pixels], ..Dicom::default() };
+    let dicom = |syntax, bits: u16, pixels| Dicom {
+        syntax,
+        bits: [bits; 2],
+        pixels: vec![pixels],
+        ..Dicom::default()
+    };
+    let whole =
+        |syntax, frame: &[u8]| Dicom { size: [32, 32], ..dicom(syntax, 16, frame.to_vec()) };
     vec![
         ("nrrd", nrrd("type: uint8")),
         ("nrrd placed", nrrd(&format!("type: uint8\n{place}"))),
@@ -265,5 +324,8 @@ pub(crate) fn zoo() -> Vec<(&'static str, Vec<u8>)> {
         ("dicom implicit", Dicom { syntax: "1.2.840.10008.1.2", ..Dicom::default() }.bytes()),
         ("dicom rle", dicom("1.2.840.10008.1.2.5", 16, rle).bytes()),
         ("dicom jpeg", dicom("1.2.840.10008.1.2.4.50", 8, jpeg).bytes()),
+        ("dicom jpeg-ls", whole("1.2.840.10008.1.2.4.80", JPEG_LS).bytes()),
+        ("dicom jpeg 2000", whole("1.2.840.10008.1.2.4.90", JPEG_2000).bytes()),
+        ("dicom frames", frames(&[1.0, 2.0, 3.0]).bytes()),
     ]
 }

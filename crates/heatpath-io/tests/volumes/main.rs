@@ -5,6 +5,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod dicom;
+mod dicom_frames;
+mod dicom_pixels;
 mod meta_image;
 mod nifti;
 mod nrrd;

@@ -105,7 +105,7 @@ fn odd_headers_are_explained() {
         ("Offset = 1 2 x", "Offset: \"x\""),
         ("TransformMatrix = 1 0 0 0 2 0 0 0 1", "no unit vector"),
         ("TransformMatrix = 1 0 0 0.6 0.8 0 0 0 1", "axes 0 and 1 meet at 53.13 degrees"),
-        ("HeaderSize = 99", "too few bytes"),
+        ("HeaderSize = 99", "HeaderSize = 99, but there are 12 bytes, of which 12 are data"),
         ("nonsense", "has no ="),
         ("NDims = 5\nDimSize = 1 1 1 1 1", "5 axes"),
         ("CompressedData = True", "damaged"),

@@ -77,9 +77,36 @@ fn frames_need_a_choice() {
 }
 
 #[test]
+fn pairs_of_files_are_read() {
+    for (is_second, magic) in [(false, b"ni1\0"), (true, b"ni2\0")] {
+        let bytes = Nifti { is_second, magic, offset: 0, ..Nifti::default() }.bytes();
+        let (header, data) = bytes.split_at(bytes.len() - 24);
+        let zipped = |bytes: &[u8], is_zipped| if is_zipped { gzip(bytes) } else { bytes.to_vec() };
+        for (header_name, data_name) in [
+            ("a.hdr", "a.img"),
+            ("a.hdr.gz", "a.img.gz"),
+            ("a.hdr", "a.img.gz"),
+            ("b.c", "b.c.img"),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join(header_name);
+            std::fs::write(&path, zipped(header, header_name.ends_with("gz"))).unwrap();
+            let missing = ImageFile::read(&path).unwrap_err();
+            assert!(missing.is_access() && missing.to_string().contains(".img: "), "{missing}");
+            let data = zipped(data, data_name.ends_with("gz"));
+            std::fs::write(folder.path().join(data_name), data).unwrap();
+            let file = ImageFile::read(&path).unwrap();
+            assert_eq!(file.spacing(), Some([1.0, 2.0, 4.0]));
+            let values = file.into_field::<3>(None).unwrap().into_values();
+            assert_eq!(values, (0..12).map(f64::from).collect::<Vec<_>>());
+        }
+    }
+}
+
+#[test]
 fn what_is_no_single_file_is_explained() {
     let with = |nifti: Nifti| text_error(&nifti.bytes());
-    assert!(with(Nifti { magic: b"ni1\0", ..Nifti::default() }).contains(".img"));
+    assert!(with(Nifti { magic: b"ni1\0", ..Nifti::default() }).contains("odd.file.img"));
     assert!(with(Nifti { magic: b"\0\0\0\0", ..Nifti::default() }).contains("Analyze"));
     assert!(with(Nifti { kind: 32, ..Nifti::default() }).contains("numbered 32"));
     assert!(with(Nifti { size: vec![3], ..Nifti::default() }).contains("1 axes"));

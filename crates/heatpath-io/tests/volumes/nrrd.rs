@@ -119,7 +119,7 @@ fn odd_nrrd_headers_are_explained() {
         (&format!("{place} (1,0,0) none (0,1,0)"), "2 or 3 are needed"),
         ("type: uint8\nhello", "no field"),
         ("type: uint8\nbyte skip: 13", "too large for a file of 12 bytes"),
-        ("type: uint8\nline skip: 9", "too few lines"),
+        ("type: uint8\nline skip: 9", "line skip is 9, but there are 0 lines"),
     ] {
         let error = text_error(&nrrd(fields));
         assert!(error.contains(words), "{fields}: {error}");

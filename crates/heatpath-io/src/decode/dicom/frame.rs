@@ -1,11 +1,15 @@
-//! One frame of a DICOM file: its samples and its place.
+//! The frames of a DICOM file: their samples and their places.
 
+use super::descriptions::Descriptions;
 use super::elements::Elements;
-use super::pixels::{Compression, Layout};
+use super::layout::Layout;
+use super::palette::Palette;
+use super::pixels::Compression;
 use crate::ReadError;
 use crate::decode::Input;
+use crate::decode::palette::{Coloured, coloured};
 use crate::decode::volume::{Scale, samples};
-use crate::placement::{Geometry, Placement, Vector, cross, dot};
+use crate::placement::{Geometry, Vector, dot};
 use crate::sample::{SampleType, Samples};
 
 /// A decoded frame.
@@ -26,36 +30,6 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// The frame that is wanted of a file that has been parsed.
-    pub(super) fn decode(input: &Input<'_>, elements: &Elements<'_>) -> Result<Self, ReadError> {
-        let broken = |reason: String| input.broken(reason);
-        let layout = Layout::new(elements).map_err(broken)?;
-        let compression = Compression::new(&elements.transfer_syntax).map_err(broken)?;
-        let frame = choose(input, &layout)?;
-        let claimed = [u64::from(layout.columns), u64::from(layout.rows)];
-        let size = input.check_size(&claimed, layout.least_bytes(compression))?;
-        let size = [size[0], size[1]];
-        let bytes = compression.frame(elements, &layout, frame).map_err(broken)?;
-        let samples = samples(
-            &bytes,
-            layout.sample(),
-            elements.is_big_endian && elements.fragments.is_none(),
-        )
-        .map_err(broken)?;
-        let geometry = geometry(elements).map_err(broken)?;
-        Ok(Self {
-            size,
-            channels: usize::from(layout.channels),
-            sample: layout.sample(),
-            samples: layout.unused_bits_cleared(samples),
-            scale: scale(elements).map_err(broken)?,
-            white: layout.white(),
-            geometry: geometry.map(|(geometry, _)| geometry),
-            position: geometry.and_then(|(_, position)| position),
-            series: elements.text(0x0020_000e).unwrap_or_default(),
-        })
-    }
-
     /// The unit vector on the plane of the frame.
     pub(super) fn normal(&self) -> Option<Vector> {
         Some(self.geometry?.placement.direction[2])
@@ -75,41 +49,89 @@ impl Frame {
     }
 }
 
-fn choose(input: &Input<'_>, layout: &Layout) -> Result<usize, ReadError> {
-    match input.wanted.component {
-        None if layout.frames == 1 => Ok(0),
-        Some(component) if component < layout.frames => Ok(component),
-        _ => {
-            let (path, count) = (input.path.to_owned(), layout.frames as u64);
-            Err(ReadError::Component { path, count })
+/// The frames of a file that has been parsed.
+pub(super) struct Frames<'a> {
+    elements: &'a Elements<'a>,
+    descriptions: Descriptions<'a>,
+    compression: Compression,
+    layout: Layout,
+    palette: Option<Palette>,
+}
+
+impl<'a> Frames<'a> {
+    pub(super) fn new(elements: &'a Elements<'a>) -> Result<Self, String> {
+        let compression = Compression::new(&elements.transfer_syntax)?;
+        let layout = Layout::new(&elements.data, compression)?;
+        let palette = layout.is_palette.then(|| Palette::new(&elements.data, layout.is_signed));
+        let descriptions = Descriptions::new(&elements.data, layout.frames)?;
+        Ok(Self { elements, descriptions, compression, layout, palette: palette.transpose()? })
+    }
+
+    /// The slices of a volume; none if the frames do not say where they lie.
+    pub(super) fn slices(&self, input: &Input<'_>) -> Result<Option<Vec<Frame>>, ReadError> {
+        if !self.descriptions.are_slices().map_err(|e| input.broken(e))? {
+            return Ok(None);
+        }
+        self.check_size(input, self.layout.frames)?;
+        (0..self.layout.frames)
+            .map(|frame| self.decode(input, frame))
+            .collect::<Result<_, _>>()
+            .map(Some)
+    }
+
+    /// The one that is wanted; none if there are several and none is.
+    pub(super) fn chosen(&self, input: &Input<'_>) -> Result<Option<Frame>, ReadError> {
+        match input.wanted.component {
+            None if self.layout.frames > 1 => Ok(None),
+            None => self.decode(input, 0).map(Some),
+            Some(frame) if frame < self.layout.frames => self.decode(input, frame).map(Some),
+            Some(_) => Err(self.choice(input)),
         }
     }
-}
 
-fn scale(elements: &Elements<'_>) -> Result<Scale, String> {
-    let [slope, intercept] = [0x0028_1053, 0x0028_1052].map(|tag| elements.array::<1>(tag));
-    let slope = slope?.map_or(1.0, |[slope]| slope);
-    let intercept = intercept?.map_or(0.0, |[intercept]| intercept);
-    Ok(Scale { slope, intercept })
-}
+    /// That one must be chosen.
+    pub(super) fn choice(&self, input: &Input<'_>) -> ReadError {
+        ReadError::Component { path: input.path.to_owned(), count: self.layout.frames as u64 }
+    }
 
-/// Where the pixels lie, and whether the file says where the first one is.
-fn geometry(elements: &Elements<'_>) -> Result<Option<(Geometry, Option<Vector>)>, String> {
-    let spacing = match elements.array::<2>(0x0028_0030)? {
-        None => elements.array::<2>(0x0018_1164)?,
-        given => given,
-    };
-    let Some([rows, columns]) = spacing else { return Ok(None) };
-    let position = elements.array::<3>(0x0020_0032)?;
-    let direction = match elements.array::<6>(0x0020_0037)? {
-        None => Placement::default().direction,
-        Some([a, b, c, d, e, f]) => {
-            let [x, y] =
-                [[a, b, c], [d, e, f]].map(|v: Vector| v.map(|part| part / dot(v, v).sqrt()));
-            [x, y, cross(x, y)]
+    fn check_size(&self, input: &Input<'_>, frames: usize) -> Result<Vec<usize>, ReadError> {
+        let mut size = vec![u64::from(self.layout.columns), u64::from(self.layout.rows)];
+        if frames > 1 {
+            size.push(frames as u64);
         }
-    };
-    let origin = position.unwrap_or_default();
-    let geometry = Geometry::new([columns, rows, 1.0], origin, direction)?;
-    Ok(Some((geometry, position)))
+        input.check_size(&size, self.layout.least_bytes(self.compression))
+    }
+
+    fn decode(&self, input: &Input<'_>, frame: usize) -> Result<Frame, ReadError> {
+        let size = self.check_size(input, 1)?;
+        let (samples, scale) = self.samples(frame).map_err(|e| input.broken(e))?;
+        let place = self.descriptions.geometry(frame).map_err(|e| input.broken(e))?;
+        Ok(Frame {
+            size: [size[0], size[1]],
+            channels: samples.channels,
+            sample: samples.sample,
+            samples: samples.samples,
+            scale,
+            white: samples.white,
+            geometry: place.map(|(geometry, _)| geometry),
+            position: place.and_then(|(_, position)| position),
+            series: self.elements.data.text(0x0020_000e).unwrap_or_default(),
+        })
+    }
+
+    fn samples(&self, frame: usize) -> Result<(Coloured, Scale), String> {
+        let layout = &self.layout;
+        let bytes = self.compression.frame(self.elements, layout, frame)?;
+        let is_big_endian =
+            self.elements.data.encoding.is_big_endian && self.elements.fragments.is_none();
+        let samples = layout.unused_bits_cleared(samples(&bytes, layout.stored(), is_big_endian)?);
+        if let Some(palette) = &self.palette {
+            let places =
+                samples.values(0..samples.len()).into_iter().map(|pixel| palette.place(pixel));
+            return Ok((coloured(places, &palette.colours), Scale::default()));
+        }
+        let (channels, sample, white) =
+            (usize::from(layout.channels), layout.sample(), layout.white());
+        Ok((Coloured { channels, sample, samples, white }, self.descriptions.scale(frame)?))
+    }
 }

@@ -1,14 +1,24 @@
 //! DICOM: single files, and folders with the slices of a series.
 
+mod descriptions;
 mod elements;
 mod frame;
+mod jpeg;
+mod jpeg_2000;
+mod jpeg_ls;
+mod layout;
+mod palette;
 mod pixels;
+mod reader;
+mod rle;
 mod series;
+mod stack;
 
-use super::{Format, Input, Raster};
+use super::{Input, Raster};
 use crate::ReadError;
 use elements::{Elements, PREAMBLE};
-use frame::Frame;
+use frame::Frames;
+use stack::{Slice, stacked};
 
 pub(crate) use series::decode as decode_folder;
 
@@ -17,20 +27,19 @@ pub(super) fn is_dicom(bytes: &[u8]) -> bool {
     bytes.get(PREAMBLE..).is_some_and(|rest| rest.starts_with(b"DICM"))
 }
 
-/// One frame: raw, run lengths, baseline and lossless JPEG; grey or in colour. Values are rescaled.
+/// The frame that is wanted, or all frames as a volume if the file says where they lie; grey, in colour
+/// or of single bits. Values are rescaled.
 pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let elements = Elements::parse(input.bytes).map_err(|e| input.broken(e))?;
-    let frame = Frame::decode(input, &elements)?;
-    let (samples, is_scaled) = frame.scale.apply(frame.samples);
-    Ok(Raster {
-        format: Format::Dicom,
-        size: frame.size.to_vec(),
-        channels: frame.channels,
-        sample: frame.sample,
-        samples,
-        white: frame.white.filter(|_| !is_scaled),
-        pages: 1,
-        channel_axis: false,
-        geometry: frame.geometry,
+    let frames = Frames::new(&elements).map_err(|e| input.broken(e))?;
+    let slices = match frames.chosen(input)? {
+        Some(frame) => vec![frame],
+        None => frames.slices(input)?.ok_or_else(|| frames.choice(input))?,
+    };
+    let count = slices.len();
+    let named = (0..).zip(slices).map(|(i, frame)| Slice::new(format!("frame {i}"), frame));
+    stacked(named.collect()).map_err(|reason| match count {
+        1 => input.broken(reason),
+        _ => input.broken(format!("{reason}; choose one component, from 0 to {}", count - 1)),
     })
 }

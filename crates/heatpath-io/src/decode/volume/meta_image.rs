@@ -157,13 +157,17 @@ impl<'a> Fields<'a> {
 
     /// The data without a header of their own.
     fn skip<'d>(&self, header: &Header, data: &'d [u8]) -> Result<&'d [u8], String> {
-        let start = match self.number::<i64>("HeaderSize", 0)? {
+        let (size, found) = (self.number::<i64>("HeaderSize", 0)?, data.len());
+        let start = match size {
             // The data stand at the end.
-            -1 => (data.len() as u64).checked_sub(header.bytes()),
+            -1 => (found as u64).checked_sub(header.bytes()),
             size => u64::try_from(size).ok(),
         };
         let start = start.and_then(|start| usize::try_from(start).ok());
-        start.and_then(|start| data.get(start..)).ok_or("too few bytes to skip".to_owned())
+        let (start, needed) = (start.and_then(|start| data.get(start..)), header.bytes());
+        start.ok_or_else(|| {
+            format!("HeaderSize = {size}, but there are {found} bytes, of which {needed} are data")
+        })
     }
 }
 

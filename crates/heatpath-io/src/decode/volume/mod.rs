@@ -90,17 +90,10 @@ impl Header {
         let taken = choice.channel.map(|channel| (channel, self.channels as usize));
         let samples = block.read(self.encoding, data.bytes, taken).map_err(|e| input.broken(e))?;
         let (samples, is_scaled) = self.scale.apply(samples);
-        Ok(Raster {
-            format: input.format,
-            size,
-            channels: choice.channels,
-            sample: self.sample,
-            samples,
-            white: self.sample.white().filter(|_| !is_scaled),
-            pages: 1,
-            channel_axis: false,
-            geometry: self.geometry,
-        })
+        let white = self.sample.white().filter(|_| !is_scaled);
+        let raster =
+            Raster::new(input.format, size, choice.channels, (self.sample, samples), white);
+        Ok(Raster { geometry: self.geometry, ..raster })
     }
 
     fn choose(&self, input: &Input<'_>) -> Result<Choice, ReadError> {

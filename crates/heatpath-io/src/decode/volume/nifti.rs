@@ -1,4 +1,5 @@
-//! `NIfTI`-1 and `NIfTI`-2 in one file, plain or gzipped: a binary header, and the numbers.
+//! `NIfTI`-1 and `NIfTI`-2: a binary header, and the numbers in the same file or in one beside it; plain
+//! or gzipped.
 //!
 //! <https://nifti.nimh.nih.gov/nifti-1> and <https://nifti.nimh.nih.gov/nifti-2>
 
@@ -22,12 +23,35 @@ pub(in crate::decode) fn is_nifti(bytes: &[u8]) -> bool {
     Words::new(&start(bytes)).is_some()
 }
 
-/// `.nii` and `.nii.gz`. The place is that of the sform, else of the qform.
+/// `.nii` and `.nii.gz`, and `.hdr` with its data in `.img` or `.img.gz`. The place is that of the sform,
+/// else of the qform.
 pub(in crate::decode) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let start = start(input.bytes);
     let words = Words::new(&start).ok_or_else(|| input.broken("no header"))?;
-    let header = words.header(input.bytes.starts_with(GZIP)).map_err(|e| input.broken(e))?;
-    header.decode(input, input.bytes)
+    let header = words.header().map_err(|e| input.broken(e))?;
+    if words.is_whole() {
+        let is_gzip = input.bytes.starts_with(GZIP);
+        return header.encoded(is_gzip).decode(input, input.bytes);
+    }
+    let name = data_name(input);
+    let data = input.beside(&name)?;
+    header.encoded(name.ends_with(".gz")).decode(input, &data)
+}
+
+impl Header {
+    fn encoded(self, is_gzip: bool) -> Self {
+        Self { encoding: if is_gzip { Encoding::Gzip } else { Encoding::Raw }, ..self }
+    }
+}
+
+/// The other file of a pair, of which either may be gzipped.
+fn data_name(input: &Input<'_>) -> String {
+    let name = input.path.file_name().unwrap_or_default().to_string_lossy();
+    let stem = name.strip_suffix(".gz").unwrap_or(&name);
+    let plain = format!("{}.img", stem.strip_suffix(".hdr").unwrap_or(stem));
+    let zipped = format!("{plain}.gz");
+    let exists = |name: &str| input.wanted.folder.is_some_and(|folder| folder.join(name).is_file());
+    if exists(&zipped) && !exists(&plain) { zipped } else { plain }
 }
 
 /// The bytes in which the header lies, inflated if need be.
@@ -154,13 +178,19 @@ impl<'a> Words<'a> {
         if self.is_second() { i64::from_le_bytes(self.array(at)) as f64 } else { self.float(at, 0) }
     }
 
-    fn header(&self, is_gzip: bool) -> Result<Header, String> {
-        match &self.bytes[self.layout.magic..][..4] {
-            b"n+1\0" | b"n+2\0" => {}
-            b"ni1\0" | b"ni2\0" => {
-                return Err("its data lie in an .img file; one .nii file is accepted".to_owned());
-            }
-            _ => return Err("a header of Analyze, which says not how the axes lie".to_owned()),
+    fn magic(&self) -> &[u8] {
+        &self.bytes[self.layout.magic..][..4]
+    }
+
+    /// Whether the numbers lie in the file of the header.
+    fn is_whole(&self) -> bool {
+        self.magic()[1] == b'+'
+    }
+
+    /// The header of numbers that are not compressed.
+    fn header(&self) -> Result<Header, String> {
+        if !matches!(self.magic(), b"n+1\0" | b"n+2\0" | b"ni1\0" | b"ni2\0") {
+            return Err("a header of Analyze, which says not how the axes lie".to_owned());
         }
         let sizes = self.sizes()?;
         let space = sizes.len().min(3);
@@ -181,9 +211,9 @@ impl<'a> Words<'a> {
             frames: product(&sizes[space..]),
             sample,
             is_big_endian: self.is_big_endian,
-            encoding: if is_gzip { Encoding::Gzip } else { Encoding::Raw },
+            encoding: Encoding::Raw,
             // Some leave it out.
-            skip: if skip == 0 { self.layout.bytes as u64 + 4 } else { skip },
+            skip: if skip == 0 && self.is_whole() { self.layout.bytes as u64 + 4 } else { skip },
             scale: if is_scaled { scale } else { Scale::default() },
             geometry: Some(nifti_place::geometry(self, space)?),
         })

@@ -1,10 +1,7 @@
-//! Where a `NIfTI` file says that its voxels lie.
+//! Where a `NIfTI` file says that its voxels lie, which is in RAS.
 
 use super::nifti::Words;
-use crate::placement::{Geometry, Placement, Vector};
-
-/// World coordinates of the format are RAS.
-const TO_LPS: Vector = [-1.0, -1.0, 1.0];
+use crate::placement::{Geometry, Placement, Vector, ras_to_lps};
 
 /// From the sform, else from the qform, else from the spacing alone.
 pub(super) fn geometry(words: &Words<'_>, axes: usize) -> Result<Geometry, String> {
@@ -18,10 +15,7 @@ pub(super) fn geometry(words: &Words<'_>, axes: usize) -> Result<Geometry, Strin
         }
     };
     let unit = unit(words);
-    let world = |vector: Vector| {
-        // Adding 0 turns -0 into 0.
-        std::array::from_fn(|row| TO_LPS[row] * unit * vector[row] + 0.0)
-    };
+    let world = |vector: Vector| ras_to_lps(vector.map(|part| unit * part));
     Geometry::from_axes(&columns.map(world)[..axes], world(origin))
 }
 

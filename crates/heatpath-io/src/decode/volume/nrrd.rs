@@ -7,7 +7,7 @@ use super::nrrd_axes::{Axes, vectors};
 use super::{Header, Scale, numbers, product};
 use crate::ReadError;
 use crate::decode::{Input, Raster};
-use crate::placement::{Geometry, Placement, Vector};
+use crate::placement::{Geometry, Placement, Vector, mirrored};
 use crate::sample::SampleType;
 use std::collections::HashMap;
 
@@ -108,7 +108,7 @@ impl<'a> Fields<'a> {
         let Some(directions) = &axes.directions else {
             return self.bare_spacing(axes);
         };
-        let sign = match self.get("space").map(str::to_ascii_lowercase).as_deref() {
+        let signs = match self.get("space").map(str::to_ascii_lowercase).as_deref() {
             Some("right-anterior-superior" | "ras") => [-1.0, -1.0, 1.0],
             Some("left-anterior-superior" | "las") => [1.0, -1.0, 1.0],
             Some(space) if space.ends_with("time") => {
@@ -116,7 +116,7 @@ impl<'a> Fields<'a> {
             }
             _ => [1.0; 3],
         };
-        let world = |vector: Vector| std::array::from_fn(|row| sign[row] * vector[row] + 0.0);
+        let world = |vector: Vector| mirrored(vector, signs);
         let along = directions[axes.first..][..axes.count].iter().flatten();
         let along: Vec<Vector> = along.map(|&vector| world(vector)).collect();
         let origin = self.get("spaceorigin").map(vectors).transpose()?.unwrap_or_default();
@@ -144,14 +144,19 @@ impl<'a> Fields<'a> {
             text.parse::<i64>().map_err(|_| format!("{name}: {text:?} is not a number"))
         };
         let mut rest = data;
-        for _ in 0..count("lineskip")? {
-            let end = rest.iter().position(|&c| c == b'\n').ok_or("too few lines to skip")?;
+        let lines = count("lineskip")?;
+        for line in 0..lines {
+            let end = rest.iter().position(|&c| c == b'\n');
+            let end =
+                end.ok_or_else(|| format!("line skip is {lines}, but there are {line} lines"))?;
             rest = &rest[end + 1..];
         }
         let skip = match count("byteskip")? {
             // The data stand at the end.
             -1 if header.encoding == Encoding::Raw => {
-                (rest.len() as u64).checked_sub(header.bytes()).ok_or("the data end early")?
+                (rest.len() as u64).checked_sub(header.bytes()).ok_or_else(|| {
+                    format!("the data end early: {} of {} are there", rest.len(), header.bytes())
+                })?
             }
             bytes => u64::try_from(bytes).map_err(|_| format!("byteskip: {bytes} is negative"))?,
         };
