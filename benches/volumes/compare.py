@@ -100,7 +100,12 @@ def read_itk(path):
         reader = SimpleITK.ImageSeriesReader()
         reader.SetFileNames(reader.GetGDCMSeriesFileNames(str(path)))
         return from_itk(reader.Execute())
-    return from_itk(SimpleITK.ReadImage(str(path)))
+    image = SimpleITK.ReadImage(str(path))
+    bits = "0028|0100"
+    if image.HasMetaDataKey(bits) and image.GetMetaData(bits) == "1":
+        # Of single bits it makes 0 and 255.
+        return from_itk(image // 255)
+    return from_itk(image)
 
 
 def read_nibabel(path):
@@ -112,22 +117,38 @@ def read_nibabel(path):
     return Image(values, affine[:3, :axes], affine[:3, 3])
 
 
+def said(data, group, name, usual):
+    """What a file says of its first frame or of all frames in a functional group, or of itself."""
+    for groups in ("PerFrameFunctionalGroupsSequence", "SharedFunctionalGroupsSequence"):
+        for frame in data.get(groups, [])[:1]:
+            for item in frame.get(group, []):
+                if name in item:
+                    return item[name].value
+    return data.get(name, usual)
+
+
 def read_pydicom(path):
-    """One frame of DICOM."""
+    """The frames of DICOM, in the plane of the first one."""
     data = pydicom.dcmread(path)
     values = data.pixel_array.astype(float)
-    values = values * float(data.get("RescaleSlope", 1)) + float(data.get("RescaleIntercept", 0))
-    spacing = data.get("PixelSpacing", data.get("ImagerPixelSpacing", [1, 1]))
-    axes = numpy.array(data.get("ImageOrientationPatient", [1, 0, 0, 0, 1, 0]), float).reshape(2, 3)
+    slope = said(data, "PixelValueTransformationSequence", "RescaleSlope", 1)
+    values = values * float(slope) + float(
+        said(data, "PixelValueTransformationSequence", "RescaleIntercept", 0)
+    )
+    detector = data.get("ImagerPixelSpacing", [1, 1])
+    spacing = said(data, "PixelMeasuresSequence", "PixelSpacing", detector)
+    axes = said(data, "PlaneOrientationSequence", "ImageOrientationPatient", [1, 0, 0, 0, 1, 0])
+    axes = numpy.array(axes, float).reshape(2, 3)
     matrix = (axes * numpy.array([[float(spacing[1])], [float(spacing[0])]])).T
-    return Image(values, matrix, data.get("ImagePositionPatient", [0, 0, 0]))
+    position = said(data, "PlanePositionSequence", "ImagePositionPatient", [0, 0, 0])
+    return Image(values, matrix, position)
 
 
 def others(path):
     """The readers that fit, with their names."""
     name = path.name.lower()
     readers = [("SimpleITK", read_itk)]
-    if name.endswith((".nii", ".nii.gz")):
+    if name.endswith((".nii", ".nii.gz", ".hdr", ".hdr.gz")):
         readers.append(("nibabel", read_nibabel))
     if name.endswith(".dcm"):
         readers.append(("pydicom", read_pydicom))

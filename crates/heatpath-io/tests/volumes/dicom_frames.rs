@@ -65,16 +65,14 @@ fn regular_frames_have_one_distance() {
 }
 
 #[test]
-fn dose_grids_have_offsets_and_a_unit() {
-    let dose = |offsets: &'static str| {
-        plain(&[(0x0020_0032, "1\\2\\3"), (0x3004_000c, offsets), (0x3004_000e, "0.5")])
-    };
+fn dose_grids_have_offsets() {
+    let dose = |offsets: &'static str| plain(&[(0x0020_0032, "1\\2\\3"), (0x3004_000c, offsets)]);
     // Relative to the first frame, or heights.
     for offsets in ["0\\4", "3\\7"] {
         let file = file(&dose(offsets).bytes());
         assert_eq!(file.spacing(), Some([0.25, 0.5, 4.0]));
         assert_eq!(file.placement().unwrap().origin, [1.0, 2.0, 3.0]);
-        assert_eq!(file.into_field::<3>(None).unwrap().values()[11], 5.5);
+        assert_eq!(file.into_field::<3>(None).unwrap().values()[11], 11.0);
     }
     let down = file(&dose("0\\-4").bytes());
     assert_eq!(down.placement().unwrap().origin, [1.0, 2.0, -1.0], "sorted upwards");

@@ -22,7 +22,6 @@ const BETWEEN_SLICES: Tag = 0x0018_0088;
 const GRID_OFFSETS: Tag = 0x3004_000c;
 const SLOPE: Tag = 0x0028_1053;
 const INTERCEPT: Tag = 0x0028_1052;
-const DOSE_SCALING: Tag = 0x3004_000e;
 
 pub(super) struct Descriptions<'a> {
     file: &'a DataSet<'a>,
@@ -83,15 +82,13 @@ impl<'a> Descriptions<'a> {
         Ok(Some((geometry, position)))
     }
 
-    /// How stored numbers become values; those of a dose grid become Gray, as in ITK.
+    /// How stored numbers become values.
     pub(super) fn scale(&self, frame: usize) -> Result<Scale, String> {
-        let slope = match self.array::<1>(frame, PIXEL_VALUES, SLOPE)? {
-            None => self.file.array(DOSE_SCALING)?,
-            given => given,
+        let number = |tag, usual| {
+            let found = self.array::<1>(frame, PIXEL_VALUES, tag)?;
+            Ok::<_, String>(found.map_or(usual, |[number]| number))
         };
-        let intercept = self.array::<1>(frame, PIXEL_VALUES, INTERCEPT)?;
-        let first = |value: Option<[f64; 1]>, usual: f64| value.map_or(usual, |[value]| value);
-        Ok(Scale { slope: first(slope, 1.0), intercept: first(intercept, 0.0) })
+        Ok(Scale { slope: number(SLOPE, 1.0)?, intercept: number(INTERCEPT, 0.0)? })
     }
 
     /// Between rows and between columns.
