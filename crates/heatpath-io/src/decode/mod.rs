@@ -43,7 +43,7 @@ pub enum Format {
     Nrrd,
     /// `MetaImage`, of ITK; its data in the file or beside it.
     MetaImage,
-    /// `NIfTI`-1 and `NIfTI`-2 in one file, plain or gzipped.
+    /// `NIfTI`-1 and `NIfTI`-2 in one file or in a pair of header and data, plain or gzipped.
     Nifti,
     /// DICOM: a file, or the slices of a series in a folder.
     Dicom,

@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "each test program uses a part of this")]
 
 pub(crate) mod codecs;
+pub(crate) mod dicom;
 pub(crate) mod volumes;
 
 use heatpath_core::grid::{Grid, Mask};

@@ -1,6 +1,7 @@
 //! DICOM: single files and folders of slices.
 
-use crate::common::volumes::{Dicom, text_error};
+use crate::common::dicom::Dicom;
+use crate::common::volumes::text_error;
 use crate::file;
 use heatpath_io::{ImageFile, Placement, ReadError};
 use std::fs;

@@ -1,6 +1,7 @@
 //! DICOM: files of several frames.
 
-use crate::common::volumes::{Dicom, frames, text_error};
+use crate::common::dicom::{Dicom, frames};
+use crate::common::volumes::text_error;
 use crate::file;
 use heatpath_io::{ImageFile, ReadError};
 use std::fs;

@@ -1,7 +1,8 @@
 //! DICOM: compressions, colours and bits.
 
 use crate::common::codecs::{JPEG_2000, JPEG_2000_RGB, JPEG_2000_SIGNED, JPEG_LS, JPEG_LS_NEAR};
-use crate::common::volumes::{Dicom, text_error};
+use crate::common::dicom::Dicom;
+use crate::common::volumes::text_error;
 use crate::file;
 use heatpath_io::{Channel, PictureOptions};
 
