@@ -54,7 +54,12 @@ fn every_file_of_the_zoo_is_a_picture_or_a_volume() {
             Format::Nifti => "nifti",
             _ => "dicom",
         }));
-        assert_eq!(info.pages, if name == "tiff pages" { 2 } else { 1 });
+        let pages = match name {
+            "tiff pages" => 2,
+            "dicom frames" => 3,
+            _ => 1,
+        };
+        assert_eq!(info.pages, pages);
     }
 }
 
