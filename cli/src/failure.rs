@@ -11,7 +11,6 @@ use heatpath_core::grid::voting::VotingError;
 use heatpath_core::grid::{PointError, ShapeError, StructureError};
 use heatpath_io::{ReadError, WriteError};
 use std::fmt;
-use std::process::ExitCode;
 
 /// A reason to stop, told in one line.
 #[derive(Debug)]
@@ -66,8 +65,8 @@ impl Failure {
 
     /// The exit code for it.
     #[must_use]
-    pub fn code(&self) -> ExitCode {
-        ExitCode::from(self.code)
+    pub fn code(&self) -> u8 {
+        self.code
     }
 }
 

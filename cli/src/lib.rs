@@ -28,7 +28,7 @@ mod structure;
 mod vote;
 
 pub use failure::Failure;
-pub use run::watch;
+pub use run::{be_a_guest, watch};
 
 use args::{Args, Command};
 use clap::Parser;
@@ -43,7 +43,7 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             output::complain(&failure);
-            failure.code()
+            failure.code().into()
         }
     }
 }

@@ -3,20 +3,31 @@
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::cell::RefCell;
 use std::ops::ControlFlow;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C and requests to terminate.
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
-/// Is told how far the work is.
-static OBSERVER: OnceLock<fn(f64)> = OnceLock::new();
+/// Whether signals are the business of somebody else.
+static GUEST: AtomicBool = AtomicBool::new(false);
 
-/// Lets `observer` know, from now on, which part of a long computation is finished, from 0 to 1. The
-/// first observer stays.
-pub fn watch(observer: fn(f64)) {
-    OBSERVER.get_or_init(|| observer);
+type Observer = Box<dyn Fn(f64) -> ControlFlow<()>>;
+
+thread_local! {
+    static OBSERVER: RefCell<Observer> = RefCell::new(Box::new(|_| ControlFlow::Continue(())));
+}
+
+/// Lets `observer` know, from now on, which part of a long computation of this thread is finished, from
+/// 0 to 1; [`ControlFlow::Break`] stops it.
+pub fn watch(observer: impl Fn(f64) -> ControlFlow<()> + 'static) {
+    OBSERVER.set(Box::new(observer));
+}
+
+/// Leaves Ctrl-C and requests to terminate, from now on, to the program that this library is a guest of.
+pub fn be_a_guest() {
+    GUEST.store(true, Ordering::Relaxed);
 }
 
 /// As Ctrl-C does.
@@ -34,16 +45,14 @@ pub(crate) fn run<T>(
     let bar = progress_bar(work, quiet);
     // Without a handler an interruption ends the process at once, which leaves no partial file
     // either: outputs are renamed when complete. A second handler is refused, and not needed.
-    drop(ctrlc::set_handler(interrupt));
+    if !GUEST.load(Ordering::Relaxed) {
+        drop(ctrlc::set_handler(interrupt));
+    }
     let exec = Exec::new(threads)?.with_watch(|finished| {
         bar.set_position((finished * 1000.0) as u64);
-        if let Some(observe) = OBSERVER.get() {
-            observe(finished);
-        }
-        if INTERRUPTED.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+        match INTERRUPTED.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => OBSERVER.with_borrow(|observe| observe(finished)),
         }
     });
     let computed = compute(&exec);

@@ -1,7 +1,11 @@
 //! The modules of 3D Slicer in programs of its kind: described to ctk-cli, Girder and nipype, and
 //! run by nipype, with the results of the command.
 
+#[path = "../../../plugins/slicer/tests/inputs/files.rs"]
+mod files;
+
 use crate::harness::{Host, heatpath, workplace};
+use files::{MESH, nrrd};
 use heatpath_ffi_tests::{program, repository, run};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,6 +16,10 @@ pub(crate) fn hosts() -> Vec<Host> {
     vec![Host { name: "slicer", package: "nipype, from PyPI,", present, run: slicer }]
 }
 
+/// The volume is turned and shifted in the world.
+const WORLD: &str = "space: left-posterior-superior\nspace directions: (0,1,0) (-1,0,0) (0,0,1.5)\n\
+                     kinds: domain domain domain\nspace origin: (40,50,-80)\n";
+
 /// The Python of the virtual environment that `.ci/hosts` makes.
 fn python() -> PathBuf {
     repository("target/slicer/bin/python3")
@@ -21,7 +29,7 @@ fn slicer() {
     let folder = workplace("slicer");
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    write_volume(&folder.join("volume.nrrd"));
+    fs::write(folder.join("volume.nrrd"), nrrd(WORLD)).unwrap();
     fs::write(folder.join("sources.csv"), "29,52,-65.5\n").unwrap();
     fs::write(folder.join("ends.csv"), "30,73,-74\n32.5,60,-74\n").unwrap();
     fs::write(folder.join("mesh.off"), MESH).unwrap();
@@ -71,28 +79,3 @@ fn results_are_those_of_the_command(folder: &Path) {
     }
     assert!(fs::read(folder.join("votes.nrrd")).unwrap() == fs::read(votes).unwrap(), "votes");
 }
-
-/// Columns, rows, slices.
-const SIZE: [usize; 3] = [24, 20, 16];
-
-/// A bright tube that winds through a volume, which is turned and shifted in the world.
-fn write_volume(path: &Path) {
-    let voxel = |i: usize| {
-        let [x, y, z] = [i % SIZE[0], i / SIZE[0] % SIZE[1], i / SIZE[0] / SIZE[1]];
-        let [x, y, z] = [x, y, z].map(|n| n as f64);
-        let (u, v) = (y - 10.0 - 4.0 * (0.25 * x).sin(), z - 8.0 - 3.0 * (0.2 * x).cos());
-        (20.0 + 200.0 * (-(u * u + v * v) / 6.0).exp()) as u8
-    };
-    let [columns, rows, slices] = SIZE;
-    let header = format!(
-        "NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\n\
-         sizes: {columns} {rows} {slices}\nspace directions: (0,1,0) (-1,0,0) (0,0,1.5)\n\
-         kinds: domain domain domain\nencoding: raw\nspace origin: (40,50,-80)\n\n"
-    );
-    let voxels = (0..SIZE.iter().product()).map(voxel).collect::<Vec<u8>>();
-    fs::write(path, [header.as_bytes(), &voxels].concat()).unwrap();
-}
-
-/// A roof of two rectangles.
-const MESH: &str = "OFF\n6 4 0\n0 0 0\n4 0 0\n0 3 1\n4 3 1\n0 6 0\n4 6 0\n\
-                    3 0 1 2\n3 1 3 2\n3 2 3 4\n3 3 5 4\n";

@@ -9,6 +9,8 @@ use std::path::PathBuf;
 /// What a host asks of a module.
 #[derive(Debug, PartialEq)]
 pub enum Request {
+    /// An answer to `--help` or `--version`.
+    Help(String),
     /// The description of the module.
     Xml,
     /// Its picture.
@@ -22,8 +24,7 @@ pub enum Request {
     },
 }
 
-/// Reads the command line of a module; its first word is the name of the program. `--help` and
-/// `--version` end the process.
+/// Reads the command line of a module; its first word is the name of the program.
 ///
 /// # Errors
 /// What is wrong with it, in one line.
@@ -32,8 +33,9 @@ pub fn command_line(
     words: impl IntoIterator<Item = OsString>,
 ) -> Result<Request, Failure> {
     let given = match parser(module).try_get_matches_from(words) {
+        Ok(given) => given,
         Err(error) if error.use_stderr() => return Err(error.into()),
-        given => given.unwrap_or_else(|asked| asked.exit()),
+        Err(help) => return Ok(Request::Help(help.to_string())),
     };
     if given.get_flag("xml") {
         return Ok(Request::Xml);
@@ -62,7 +64,7 @@ fn parser(module: &Module) -> Command {
         .args_override_self(true)
         .arg(flag("xml").help("Describe this module to a host such as 3D Slicer"))
         .arg(flag("logo").help("Print the picture of this module"))
-        // Slicer and programs that imitate it may pass these.
+        // Slicer and programs that imitate it may pass these; the second is for libraries.
         .arg(hidden("returnparameterfile"))
         .arg(hidden("processinformationaddress"))
         .args(parameters(module).map(argument))

@@ -7,8 +7,12 @@
 //!
 //! The rules of the XML are those that Slicer, CTK, nipype and Girder agree on: the names of
 //! options are letters and digits, children have one order, and there are no scalar outputs.
+//!
+//! Each module is a program in `bin`, and a library in `libraries` for hosts that load it
+//! ([`shared_object!`]).
 
 mod arguments;
+pub mod library;
 mod logo;
 mod module;
 pub mod modules;
@@ -21,38 +25,57 @@ pub use xml::description;
 
 use heatpath_cli::Failure;
 use heatpath_io::write_atomically;
+use progress::{Listener, Output};
+use std::cell::Cell;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::rc::Rc;
 
 /// The program of a module.
 #[must_use]
 pub fn main(module: &Module) -> ExitCode {
-    match run(module, std::env::args_os()) {
+    match run(module, std::env::args_os(), &Output::listener(module.name)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             // If standard error is closed there is nobody to tell.
             drop(writeln!(io::stderr(), "{}: error: {failure}", module.name));
-            failure.code()
+            failure.code().into()
         }
     }
 }
 
-fn run(module: &Module, words: impl Iterator<Item = OsString>) -> Result<(), Failure> {
+fn run(
+    module: &Module,
+    words: impl IntoIterator<Item = OsString>,
+    listener: &Rc<dyn Listener>,
+) -> Result<(), Failure> {
     match command_line(module, words)? {
+        Request::Help(text) => print(&text),
         Request::Xml => print(&description(module)),
         Request::Logo => print(&logo::logo()),
         Request::Run { words, return_parameters } => {
-            let finish = progress::begin(module.name);
+            listener.begin();
+            watch(Rc::clone(listener));
             heatpath_cli::heatpath(words)?;
             // There are no scalar outputs, so there is nothing to return.
             if let Some(file) = return_parameters {
                 write_atomically(file, true, |_| Ok(()))?;
             }
-            finish();
+            listener.end();
         }
     }
     Ok(())
+}
+
+/// Tells a listener the finished part; a second stage of the work, which begins at 0 again, is told from where
+/// it passes the first.
+fn watch(listener: Rc<dyn Listener>) {
+    let farthest = Cell::new(0.0);
+    heatpath_cli::watch(move |finished| {
+        farthest.set(finished.max(farthest.get()));
+        listener.tell(farthest.get())
+    });
 }
 
 /// Prints with a single write, so that no host reads half of it.
