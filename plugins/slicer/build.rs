@@ -17,9 +17,9 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-changed=src");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("linux") {
         // dlclose must not unmap code that a thread about to end may still run.
-        println!("cargo::rustc-link-arg-examples=-Wl,-z,nodelete");
-        // Four times the same 300 MB would help nobody.
-        println!("cargo::rustc-link-arg-examples=-Wl,--strip-debug");
+        println!("cargo::rustc-link-arg=-Wl,-z,nodelete");
+        // Four programs and four libraries, each with the same 300 MB about lines.
+        println!("cargo::rustc-link-arg=-Wl,--strip-debug");
     }
     let folder = env::var_os("OUT_DIR").unwrap_or_default();
     for module in modules::ALL {

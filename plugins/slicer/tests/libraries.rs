@@ -14,9 +14,17 @@ use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs;
 use std::process::Command;
 use std::ptr;
+use std::sync::LazyLock;
 
-/// Cargo builds the libraries with the tests, in the folder `examples` beside the programs.
+/// In the folder `examples` beside the programs, where cargo builds them unless it is asked for one test only.
 fn library(name: &str) -> Library {
+    static BUILT: LazyLock<()> = LazyLock::new(|| {
+        let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["build", "--quiet", "--locked", "--package", "heatpath-slicer", "--examples"]);
+        assert!(cargo.args(["--profile", profile]).status().unwrap().success());
+    });
+    LazyLock::force(&BUILT);
     let file = program(name).with_file_name("examples").join(format!("lib{name}Lib.so"));
     // SAFETY: loading it runs nothing but what Rust needs.
     unsafe { Library::new(file) }.unwrap()
