@@ -17,6 +17,7 @@ mod memory;
 mod opencv;
 mod orthanc;
 mod paraview;
+mod report;
 mod slicer;
 mod volume;
 mod vtk;
@@ -37,6 +38,7 @@ fn main() {
         opencv::hosts(),
         orthanc::hosts(),
         paraview::hosts(),
+        report::hosts(),
         slicer::hosts(),
         vtk::hosts(),
     ];
