@@ -1,0 +1,1 @@
+"""heatpath in napari: `widgets`, and `library`, which needs numpy alone."""

@@ -1,0 +1,130 @@
+"""The widgets of napari: layers in, layers out; the work is done in a thread."""
+
+import warnings
+
+import numpy as np
+from magicgui import magic_factory
+from magicgui.widgets import PushButton
+from napari.layers import Image, Labels, Points
+from napari.qt.threading import FunctionWorker, create_worker
+from napari.types import LayerDataTuple
+
+from . import library
+
+
+def distance_layer(image, sources, progress=None, **options):
+    """The distances from the points of a layer, as the data of an image layer."""
+    scene = _scene(image, sources, options)
+    distances = library.distance(**scene, progress=progress)
+    reached = distances[np.isfinite(distances)]
+    limits = [0, max(reached.max(initial=0), 1e-9)]
+    about = {"name": f"{image.name}: distance", "colormap": "viridis", "contrast_limits": limits}
+    return distances, about | _place(image), "image"
+
+
+def path_layer(image, sources, ends, progress=None, **options):
+    """The paths from the points of a layer to those of another, as the data of a shapes layer."""
+    scene = _scene(image, sources, options)
+    found = library.paths(**scene, ends=_points(ends, image), progress=progress)
+    paths = [path for path in found if path.reaches_source]
+    if len(paths) < len(found):
+        warnings.warn(f"{len(found) - len(paths)} of {len(found)} ends reach no source")
+    about = {
+        "name": f"{image.name}: paths",
+        "shape_type": "path",
+        "edge_color": "red",
+        "edge_width": 1,
+        "features": {name: [getattr(path, name) for path in paths] for name in ("physical_length", "distance")},
+    }
+    return [path.points for path in paths], about | _place(image), "shapes"
+
+
+def _scene(image, sources, options):
+    if image.rgb:
+        raise library.HeatpathError("the image is coloured: choose Split RGB and one of its channels")
+    pixels = np.asarray(image.data[0] if image.multiscale else image.data)
+    if pixels.dtype not in library.TYPES:
+        pixels = pixels.astype(float)
+    steps = np.eye(image.ndim)
+    spacing = [np.linalg.norm(_world(image, step) - _world(image, 0 * step)) for step in steps]
+    return {"image": pixels, "sources": _points(sources, image), "spacing": spacing} | options
+
+
+def _world(layer, point):
+    return np.asarray(layer.data_to_world(point))
+
+
+def _points(points, image):
+    """The points of a layer as pixels of the image, without the rounding of transforms."""
+    if points.ndim != image.ndim:
+        raise library.HeatpathError(f"{points.name} has {points.ndim} axes, but {image.name} {image.ndim}")
+    return [np.round(image.world_to_data(_world(points, point)), 9) for point in points.data]
+
+
+def _place(image):
+    return {name: getattr(image, name) for name in ("scale", "translate", "rotate", "shear", "affine")}
+
+
+def _run(
+    image: Image,
+    sources: Points,
+    ends: Points,
+    medium: str = "conductivity",
+    estimator: str = "normalized",
+    power: float = 0,
+    contrast: float = 0,
+    scale: str = "",
+    iterations: int = 0,
+    walls: Labels | None = None,
+) -> FunctionWorker[LayerDataTuple]:
+    numbers = {"power": power, "contrast": contrast, "iterations": iterations}
+    options = {name: number for name, number in numbers.items() if number}
+    options |= {"medium": medium, "estimator": estimator}
+    if scale:
+        options["scale"] = [float(number) for number in scale.split(",")]
+    if walls is not None:
+        options["mask"] = (np.asarray(walls.data) != 0).view("u1")
+    if ends is None:
+        return _worker(distance_layer, image, sources, **options)
+    return _worker(path_layer, image, sources, ends, **options)
+
+
+def _worker(compute, *layers, **options):
+    """A thread that computes until it is asked to quit."""
+
+    def work():
+        try:
+            return compute(*layers, progress=lambda _: worker.abort_requested, **options)
+        except library.Cancelled:
+            return None  # nobody waits for it
+
+    worker = create_worker(work, _start_thread=False, _progress={"desc": "heatpath"})
+    return worker
+
+
+def _add_cancel(widget):
+    """A button that stops the work, which begins when the widget is called."""
+    button = PushButton(text="Cancel", enabled=False)
+    widget.append(button)
+
+    def begin(worker):
+        button.clicked.connect(worker.quit)
+        worker.finished.connect(lambda: setattr(button, "enabled", False))
+        button.enabled = True
+        worker.start()
+
+    widget.called.connect(begin)
+
+
+LOOKS = {
+    "widget_init": _add_cancel,
+    "medium": {"choices": [name for name in library.MEDIA if not name.startswith("given")]},
+    "estimator": {"choices": list(library.WORDS["estimator"])},
+    "power": {"tooltip": "How strongly unlike grey values, or weak tubes, are held back; 0: the usual"},
+    "contrast": {"tooltip": "The change of grey value that holds heat back, or that of a full tube; 0: the usual"},
+    "scale": {"tooltip": "Half widths of the tubes to look for, with commas, in pixels; none: the usual"},
+    "iterations": {"tooltip": "Time steps of heat; 0: the usual", "max": 10**9},
+    "walls": {"tooltip": "Labels whose zeros are walls"},
+}
+distance_widget = magic_factory(_run, call_button="Find distances", ends={"bind": None}, **LOOKS)
+path_widget = magic_factory(_run, call_button="Find paths", **LOOKS)
