@@ -43,7 +43,7 @@ def results_are_layers(viewer, image, sources, ends):
     found = viewer.layers[-1]
     options = {"spacing": image.scale, "estimator": "eikonal", "power": 6}
     (expected,) = library.paths(image.data, sources.data, ends.data, **options)
-    assert np.array_equal(found.data[0], expected.points) and list(found.shape_type) == ["path"]
+    assert np.array_equal(found.data[0], expected.points.astype("f4")) and list(found.shape_type) == ["path"]
     assert found.features["physical_length"][0] == expected.physical_length
     return distance
 
@@ -83,7 +83,10 @@ ends = viewer.add_points([(84, 150)], name="ends", scale=image.scale, size=5)
 distance = results_are_layers(viewer, image, sources, ends)
 work_can_be_cancelled(viewer, distance, image, sources)
 if len(sys.argv) > 1:
-    viewer.window.resize(1100, 700)
+    viewer.layers["curve: distance"].opacity = 0.5
+    viewer.layers.move_multiple([1, 2], -1)
+    viewer.window.resize(1150, 720)
     QApplication.processEvents()
+    viewer.reset_view()
     viewer.screenshot(sys.argv[1], canvas_only=False)
 viewer.close()

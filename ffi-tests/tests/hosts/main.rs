@@ -14,6 +14,7 @@ mod harness;
 mod itk;
 mod loader;
 mod memory;
+mod napari;
 mod opencv;
 mod orthanc;
 mod paraview;
@@ -35,6 +36,7 @@ fn main() {
         itk::hosts(),
         loader::hosts(),
         memory::hosts(),
+        napari::hosts(),
         opencv::hosts(),
         orthanc::hosts(),
         paraview::hosts(),

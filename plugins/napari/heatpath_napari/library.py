@@ -7,7 +7,7 @@ system finds it, or the file named by `HEATPATH_LIBRARY`.
 
 import ctypes
 import os
-from ctypes import byref, c_double, c_uint32, c_uint64, c_void_p
+from ctypes import byref, c_double, c_int64, c_uint32, c_uint64, c_void_p
 from functools import cache
 from typing import NamedTuple
 
@@ -52,7 +52,8 @@ class Path(NamedTuple):
 
 def _struct(declarations):
     """A struct with fields as C declares them."""
-    types = {"u32": c_uint32, "u64": c_uint64, "i64": ctypes.c_int64, "f64": c_double, "pointer": c_void_p}
+    types = {"u32": c_uint32, "u64": c_uint64, "i64": c_int64, "f64": c_double, "pointer": c_void_p}
+    types |= {f"{name}[3]": kind * 3 for name, kind in types.items()}
     fields = []
     for declaration in declarations.split(";"):
         kind, names = declaration.split(maxsplit=1)
@@ -60,15 +61,9 @@ def _struct(declarations):
     return type("Struct", (ctypes.Structure,), {"_fields_": fields})
 
 
-class _Buffer(ctypes.Structure):
-    _fields_ = [(name, c_uint32) for name in ("struct_size", "type", "dimension", "reserved")] + [
-        ("data", c_void_p),
-        ("size", c_uint64 * 3),
-        ("byte_stride", ctypes.c_int64 * 3),
-        ("spacing", c_double * 3),
-    ]
-
-
+_Buffer = _struct(
+    "u32 struct_size, type, dimension, reserved; pointer data; u64[3] size; i64[3] byte_stride; f64[3] spacing"
+)
 _Options = _struct(
     "u32 struct_size, medium; f64 power, floor, contrast; u32 edge_stop, form; f64 smoothing, range_low,"
     "range_high; u64 iterations; f64 time, step; u32 estimator, threads; pointer progress, user;"

@@ -29,14 +29,10 @@ def path_layer(image, sources, ends, progress=None, **options):
     paths = [path for path in found if path.reaches_source]
     if len(paths) < len(found):
         warnings.warn(f"{len(found) - len(paths)} of {len(found)} ends reach no source")
-    about = {
-        "name": f"{image.name}: paths",
-        "shape_type": "path",
-        "edge_color": "red",
-        "edge_width": 1,
-        "features": {name: [getattr(path, name) for path in paths] for name in ("physical_length", "distance")},
-    }
-    return [path.points for path in paths], about | _place(image), "shapes"
+    numbers = {name: [getattr(path, name) for path in paths] for name in ("physical_length", "distance")}
+    looks = {"shape_type": "path", "edge_color": "red", "edge_width": 1}
+    about = {"name": f"{image.name}: paths", "features": numbers} | looks | _place(image)
+    return [path.points for path in paths], about, "shapes"
 
 
 def _scene(image, sources, options):
@@ -45,9 +41,14 @@ def _scene(image, sources, options):
     pixels = np.asarray(image.data[0] if image.multiscale else image.data)
     if pixels.dtype not in library.TYPES:
         pixels = pixels.astype(float)
+    return {"image": pixels, "sources": _points(sources, image), "spacing": _spacing(image)} | options
+
+
+def _spacing(image):
+    """How far the pixels of a layer are from each other in the world, without the rounding of transforms."""
     steps = np.eye(image.ndim)
-    spacing = [np.linalg.norm(_world(image, step) - _world(image, 0 * step)) for step in steps]
-    return {"image": pixels, "sources": _points(sources, image), "spacing": spacing} | options
+    lengths = [np.linalg.norm(_world(image, step) - _world(image, 0 * step)) for step in steps]
+    return [float(f"{length:.9g}") for length in lengths]
 
 
 def _world(layer, point):
@@ -55,7 +56,7 @@ def _world(layer, point):
 
 
 def _points(points, image):
-    """The points of a layer as pixels of the image, without the rounding of transforms."""
+    """The points of a layer as pixels of the image, rounded as well."""
     if points.ndim != image.ndim:
         raise library.HeatpathError(f"{points.name} has {points.ndim} axes, but {image.name} {image.ndim}")
     return [np.round(image.world_to_data(_world(points, point)), 9) for point in points.data]
@@ -98,6 +99,7 @@ def _worker(compute, *layers, **options):
         except library.Cancelled:
             return None  # nobody waits for it
 
+    # `work` knows it when it runs.
     worker = create_worker(work, _start_thread=False, _progress={"desc": "heatpath"})
     return worker
 
