@@ -30,38 +30,77 @@ def command(words, pixels, output):
     return FOLDER / output
 
 
-def same_distances(words, pixels, sources, **options):
+def read(words):
+    """The points and options in the words of the command, as the library takes them."""
+    given = {"source": [], "end": []}
+    for name, value in zip(words.split()[::2], words.split()[1::2]):
+        name = name.removeprefix("--").replace("-", "_")
+        if name in ("source", "end"):
+            given[name].append(numbers(value)[::-1])
+        else:
+            given[name] = value if name in library.WORDS else numbers(value)
+    if "spacing" in given:
+        given["spacing"] = given["spacing"][::-1]
+    return {name: value for name, value in given.items() if value != []}
+
+
+def numbers(text):
+    values = [float(number) if "." in number else int(number) for number in text.split(",")]
+    return values if len(values) > 1 else values[0]
+
+
+def same_distances(words, pixels):
     expected = np.load(command(f"distance {words}", np.ascontiguousarray(pixels), "distance.npy"))
-    found = library.distance(pixels, sources, **options)
-    assert found.dtype == expected.dtype and found.tobytes() == expected.tobytes(), (words, options)
+    options = read(words)
+    found = library.distance(pixels, options.pop("source"), **options)
+    assert found.dtype == expected.dtype and found.tobytes() == expected.tobytes(), words
     assert np.isfinite(found).any()
 
 
-def same_paths(words, pixels, sources, ends, **options):
+def same_paths(words, pixels):
     file = command(f"path {words}", np.ascontiguousarray(pixels), "path.csv")
     rows = list(csv.reader(file.read_text().splitlines()))[1:]
-    paths = library.paths(pixels, sources, ends, **options)
+    options = read(words)
+    paths = library.paths(pixels, options.pop("source"), options.pop("end"), **options)
     assert all(path.reaches_source and len(path.points) > 10 for path in paths)
     points = [(str(i), *point[::-1]) for i, path in enumerate(paths) for point in path.points]
     expected = [(row[0], *map(float, row[2 : 2 + pixels.ndim])) for row in rows]
-    assert points == expected, (words, options)
+    assert points == expected, words
+
+
+MEDIA = (
+    "uniform",
+    "conductivity --power 4 --floor 0.01",
+    "perona-malik --contrast 0.05 --edge-stop rational --form pointwise",
+    "combined --power 4 --range 10,200 --iterations 300 --edge-stop exponential --form divergence",
+    "edges --smooth 1.5 --normalize 8",
+    "tensor --tensor structure --anisotropy 0.8",
+    "tensor --tensor gradient --scale 1.5",
+    "tensor --tensor hessian --polarity both",
+    "vesselness --polarity dark --elongation 2",
+    "vesselness --scale 1.5,2 --polarity bright",
+)
+METHODS = (
+    "--estimator normalized --solver explicit --step 0.1",
+    "--estimator varadhan",
+    "--estimator heat-method",
+    "--estimator eikonal --farthest 40",
+    "--solver implicit --time 4.0",
+)
 
 
 def results_are_those_of_the_command():
     picture, volume = tube(40, 60), tube(16, 20, 24)
     for kind in "u1", "u2", "i2", "f4", "f8":
-        pixels = picture.astype(kind)
-        same_distances("--source 3,20", pixels, [(20, 3)])
-        same_distances("--source 3,20 --estimator eikonal", pixels, [(20, 3)], estimator="eikonal")
-    options = {"medium": "vesselness", "scale": [1.5, 2], "spacing": (1.5, 1, 0.5)}
+        same_distances("--source 3,20 --source 50,7", picture.astype(kind))
+    for medium in MEDIA:
+        same_distances(f"--medium {medium} --source 3,20", picture)
+    for method in METHODS:
+        same_distances(f"{method} --source 3,20", picture)
+    same_paths("--power 4 --source 3,20 --end 40,20 --end 30,22.5", picture)
     words = "--medium vesselness --scale 1.5,2 --spacing 0.5,1,1.5 --source 1,11,10.5"
-    same_distances(words, volume, [(10.5, 11, 1)], **options)
-    same_paths(f"{words} --end 22,8,7", volume, [(10.5, 11, 1)], [(7, 8, 22)], **options)
-    options = {"medium": "combined", "power": 4, "contrast": 0.05, "range": (10, 200), "iterations": 300}
-    words = "--medium combined --power 4 --contrast 0.05 --range 10,200 --iterations 300 --source 3,20"
-    same_distances(words, picture, [(20, 3)], **options)
-    ends = [(20, 40), (22.5, 30)]
-    same_paths(f"{words} --end 40,20 --end 30,22.5", picture, [(20, 3)], ends, **options)
+    same_distances(words, volume)
+    same_paths(f"{words} --end 22,8,7", volume)
 
 
 def strides_are_read_where_they_are():
@@ -69,9 +108,9 @@ def strides_are_read_where_they_are():
     view = large[::-2, :, 1]
     view[:] = tube(40, 60)
     assert library._buffer(view).data == view.ctypes.data
-    same_distances("--source 3,20", view, [(20, 3)])
-    same_distances("--source 20,3", view.T, [(3, 20)])
-    same_distances("--source 3,4", np.broadcast_to(view[20], (9, 60)), [(4, 3)])
+    same_distances("--source 3,20", view)
+    same_distances("--source 20,3", view.T)
+    same_distances("--source 3,4", np.broadcast_to(view[20], (9, 60)))
 
 
 def masks_are_walls():

@@ -1,6 +1,6 @@
 //! heatpath in napari, and from Python without it.
 
-use crate::harness::{Host, installed, workplace};
+use crate::harness::{Host, VERSION, installed, workplace};
 use heatpath_ffi_tests::{heatpath, repository, run};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -58,6 +58,7 @@ fn install(folder: &Path) -> PathBuf {
 fn widgets() {
     let folder = folder("napari");
     let package = install(&folder);
+    assert!(package.join(format!("heatpath_napari-{VERSION}.dist-info")).is_dir());
     let mut validate = with_package(Command::new(program("npe2")), package.clone());
     run(validate.args(["validate", "heatpath-napari"]));
     let mut napari = with_package(Command::new("xvfb-run"), package);

@@ -16,16 +16,16 @@ import numpy as np
 TYPES = {np.dtype(name): i + 1 for i, name in enumerate("u1 i1 u2 i2 u4 i4 f4 f8".split())}
 MEDIA = "uniform conductivity perona-malik combined edges given given-tensor tensor vesselness".split()
 WORDS = {
-    "medium": dict(zip(MEDIA, range(1, 10))),
+    "medium": {name: i + 1 for i, name in enumerate(MEDIA) if name != "given-tensor"},
     "estimator": {"normalized": 1, "varadhan": 2, "eikonal": 3, "heat-method": 4},
     "solver": {"explicit": 0, "implicit": 1},
-    "directions": {"hessian": 0, "structure": 1, "gradient": 2},
+    "tensor": {"hessian": 0, "structure": 1, "gradient": 2},
     "polarity": {"bright": 1, "dark": 2, "both": 3},
     "edge_stop": {"exponential": 1, "rational": 2},
     "form": {"divergence": 1, "pointwise": 2},
 }
 NUMBERS = (
-    "power floor contrast smoothing iterations time step threads reference farthest anisotropy elongation "
+    "power floor contrast smooth iterations time step threads reference farthest anisotropy elongation "
     "normalize margin"
 ).split()
 CANCELLED = 6
@@ -65,10 +65,10 @@ _Buffer = _struct(
     "u32 struct_size, type, dimension, reserved; pointer data; u64[3] size; i64[3] byte_stride; f64[3] spacing"
 )
 _Options = _struct(
-    "u32 struct_size, medium; f64 power, floor, contrast; u32 edge_stop, form; f64 smoothing, range_low,"
+    "u32 struct_size, medium; f64 power, floor, contrast; u32 edge_stop, form; f64 smooth, range_low,"
     "range_high; u64 iterations; f64 time, step; u32 estimator, threads; pointer progress, user;"
-    "u32 solver, reserved; f64 reference; u64 memory; f64 farthest; pointer tensor; u64 tensor_count;"
-    "u32 directions, polarity; f64 anisotropy; pointer scales; u64 scale_count;"
+    "u32 solver, reserved; f64 reference; u64 memory; f64 farthest; pointer tensor_data; u64 tensor_count;"
+    "u32 tensor, polarity; f64 anisotropy; pointer scales; u64 scale_count;"
     "f64 elongation, normalize, margin"
 )
 _PathInfo = _struct(

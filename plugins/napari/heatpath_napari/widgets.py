@@ -120,7 +120,7 @@ def _add_cancel(widget):
 
 LOOKS = {
     "widget_init": _add_cancel,
-    "medium": {"choices": [name for name in library.MEDIA if not name.startswith("given")]},
+    "medium": {"choices": [name for name in library.WORDS["medium"] if name != "given"]},
     "estimator": {"choices": list(library.WORDS["estimator"])},
     "power": {"tooltip": "How strongly unlike grey values, or weak tubes, are held back; 0: the usual"},
     "contrast": {"tooltip": "The change of grey value that holds heat back, or that of a full tube; 0: the usual"},

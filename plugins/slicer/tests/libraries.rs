@@ -22,7 +22,8 @@ fn library(name: &str) -> Library {
         let profile = if cfg!(debug_assertions) { "dev" } else { "release" };
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["build", "--quiet", "--locked", "--package", "heatpath-slicer", "--examples"]);
-        assert!(cargo.args(["--profile", profile]).status().unwrap().success());
+        let built = cargo.args(["--profile", profile]).output().unwrap();
+        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     });
     LazyLock::force(&BUILT);
     let file = program(name).with_file_name("examples").join(format!("lib{name}Lib.so"));
@@ -104,6 +105,13 @@ fn descriptions_are_data() {
     }
 }
 
+/// Whether Ctrl-C does anything but end this process.
+fn catches_interrupts() -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+    u64::from_str_radix(caught.trim(), 16).unwrap() & 0b10 != 0
+}
+
 #[test]
 fn results_are_those_of_the_programs() {
     for (name, line) in [
@@ -121,6 +129,7 @@ fn results_are_those_of_the_programs() {
             assert_eq!((host.told[0], host.information.progress), (0.0, 1.0), "{name}");
             assert!(host.told.is_sorted() && host.information.elapsed_time > 0.0, "{name}");
         }
+        assert!(!catches_interrupts());
         let mut program = Command::new(program(name));
         assert!(program.args(words(line, folder, "program")).output().unwrap().status.success());
         assert_eq!(compare(folder, SIDES), line.matches('@').count());
@@ -154,6 +163,14 @@ fn failures_become_messages() {
     }
 }
 
+#[test]
+fn answers_do_not_end_the_host() {
+    for question in ["--help", "--version"] {
+        let (code, host) = call("HeatpathPath", &[question.to_owned()], NEVER);
+        assert_eq!((code, message(&host)), (0, ""), "{question}");
+    }
+}
+
 /// All of the above in a process of its own.
 #[test]
 fn libraries_are_silent() {
@@ -163,5 +180,5 @@ fn libraries_are_silent() {
     assert!(output.status.success());
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
     let printed = String::from_utf8_lossy(&output.stdout);
-    assert!(printed.contains("4 passed") && !printed.contains('<'), "{printed}");
+    assert!(printed.contains("5 passed") && !printed.contains("<filter"), "{printed}");
 }
