@@ -249,7 +249,7 @@
 /** An isoline that ends at the border of a mesh, or where others meet it. */
 #define HP_ENDED_OPEN 5
 
-/** An isoline whose last point is joined to the first. */
+/** An isoline or loop whose last point is joined to the first. */
 #define HP_ENDED_CLOSED 6
 
 /** Heat begins again from all that has been found. The default. */
@@ -347,6 +347,12 @@
  */
 #define HP_MESH_EXACT 3
 
+/**
+ * Explicit heat in many small steps, as the paper has it: right where all edges are about equally
+ * long, and to compare with. Sources must have no offsets.
+ */
+#define HP_MESH_EXPLICIT 4
+
 /** Ridges and valleys count. The default. */
 #define HP_BEND_BOTH 0
 
@@ -395,10 +401,9 @@ typedef struct hp_mesh hp_mesh;
 typedef struct hp_mesh_solver hp_mesh_solver;
 
 /**
- * Paths, one for each end point, in the order of the end points; or isolines.
+ * Paths, one for each end point, in the order of the end points; or isolines and loops.
  *
- * Made by hp_paths_create(), hp_mesh_paths_create(), hp_mesh_paths_through() or
- * hp_mesh_isolines_create(), and freed by hp_paths_free(). It does not change, so any number of
+ * Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by hp_paths_free(). It does not change, so any number of
  * threads may use it at once, and any thread may free it once the others are done.
  */
 typedef struct hp_paths hp_paths;
@@ -632,6 +637,37 @@ typedef struct hp_path_info {
 } hp_path_info;
 
 /**
+ * The caller's list of items, described but never owned or kept. An item is one number (the number
+ * of a vertex, a distance) or a few that follow each other (x, y, z; the three corners of a face).
+ *
+ * Fill it with hp_array_init(), then set type, data and count. Item i is found at data + i *
+ * byte_stride, so a list can be a part of larger structs: the positions of vertices that have
+ * colours too, say. Items need not be aligned; those that are written must not overlap.
+ *
+ * Any number of threads may read the same list at once. Functions that take an input only read it,
+ * although data is not const.
+ */
+typedef struct hp_array {
+  /** sizeof(hp_array). */
+  uint32_t struct_size;
+  /**
+   * HP_U8 to HP_F64, HP_I64 or HP_U64, in the byte order of the machine. Numbers of vertices and
+   * faces can have any type of integers, coordinates and values any type; results are HP_F32 or
+   * HP_F64. There is no default.
+   */
+  uint32_t type;
+  /** The first item. */
+  void *data;
+  /** The number of items. */
+  uint64_t count;
+  /**
+   * The bytes from an item to the next one; negative if that one lies before it in memory. 0, the
+   * default, means that items follow each other without gaps.
+   */
+  int64_t byte_stride;
+} hp_array;
+
+/**
  * How hp_votes_create() looks for curves. NULL in place of it means all defaults.
  *
  * Fill it with hp_vote_options_init(), then change fields. What the method does not use is ignored.
@@ -776,37 +812,6 @@ typedef struct hp_graph_branch {
 } hp_graph_branch;
 
 /**
- * The caller's list of items, described but never owned or kept. An item is one number (the number
- * of a vertex, a distance) or a few that follow each other (x, y, z; the three corners of a face).
- *
- * Fill it with hp_array_init(), then set type, data and count. Item i is found at data + i *
- * byte_stride, so a list can be a part of larger structs: the positions of vertices that have
- * colours too, say. Items need not be aligned; those that are written must not overlap.
- *
- * Any number of threads may read the same list at once. Functions that take an input only read it,
- * although data is not const.
- */
-typedef struct hp_array {
-  /** sizeof(hp_array). */
-  uint32_t struct_size;
-  /**
-   * HP_U8 to HP_F64, HP_I64 or HP_U64, in the byte order of the machine. Numbers of vertices and
-   * faces can have any type of integers, coordinates and values any type; results are HP_F32 or
-   * HP_F64. There is no default.
-   */
-  uint32_t type;
-  /** The first item. */
-  void *data;
-  /** The number of items. */
-  uint64_t count;
-  /**
-   * The bytes from an item to the next one; negative if that one lies before it in memory. 0, the
-   * default, means that items follow each other without gaps.
-   */
-  int64_t byte_stride;
-} hp_array;
-
-/**
  * Curves of the caller: polylines, or the pixels of a mask.
  *
  * Fill it with hp_curves_init(), then set points, or mask. It is only read, and not kept.
@@ -890,8 +895,8 @@ typedef struct hp_mesh_options {
   /** For hp_mesh_solver_create(): HP_MESH_UNIFORM, the default, or another one up to HP_MESH_CREASE. */
   uint32_t medium;
   /**
-   * For hp_mesh_solver_create(): HP_MESH_AUTO, the default, HP_MESH_HEAT, HP_MESH_EIKONAL or
-   * HP_MESH_EXACT.
+   * For hp_mesh_solver_create(): HP_MESH_AUTO, the default, or another one up to
+   * HP_MESH_EXPLICIT.
    */
   uint32_t method;
   /**
@@ -911,7 +916,7 @@ typedef struct hp_mesh_options {
   uint64_t memory;
   /**
    * For hp_mesh_solver_create(): the distance beyond which nothing is reached. 0, the default,
-   * stands for no end. It saves time with all methods but HP_MESH_HEAT.
+   * stands for no end. It saves time with HP_MESH_EIKONAL and HP_MESH_EXACT.
    */
   double farthest;
   /**
@@ -954,6 +959,17 @@ typedef struct hp_mesh_options {
   double quantile;
   /** For scalars: the value f that the others are compared with. There is no default. */
   double reference;
+  /**
+   * For HP_MESH_EXPLICIT: the number of time steps, up to 10^9. 0, the default, stands for enough to
+   * reach all vertices.
+   */
+  uint64_t iterations;
+  /**
+   * For HP_MESH_EXPLICIT: the time step, where P is 1 the mean number of edges that heat goes in
+   * one. Not a number (NAN), the default, stands for 0.2, or less where that is unstable; 0 takes a
+   * safe fraction of the largest one that is stable.
+   */
+  double step;
 } hp_mesh_options;
 
 /**
@@ -1288,6 +1304,102 @@ hp_status hp_solver_paths_create(const struct hp_solver *solver,
 void hp_solver_free(struct hp_solver *solver);
 
 /**
+ * Computes how far every pixel is from the nearest of several sources, which one that is, and how
+ * surely.
+ *
+ * sources: source_count points, as for hp_distance().
+ *
+ * options: as for hp_solver_distances().
+ *
+ * distance: receives the distance from the nearest source, as hp_distance() does. NULL if it is not
+ * wanted.
+ *
+ * labels: receives the number of the nearest source, counted from 0, and -1 where none is reached; of
+ * the same size, HP_I32, or HP_U32 with the bits of -1. NULL if they are not wanted.
+ *
+ * shares: describes the first of source_count maps, HP_F32 or HP_F64, that receive the share of each
+ * source in every pixel, from 0 to 1: 1/2 where two of them are equally near, turning to 0 and 1
+ * within some sqrt(t) of there, and 0 where none is reached. NULL if they are not wanted.
+ *
+ * share_stride: the bytes from a map of shares to the next one, as map_stride of
+ * hp_solver_distances().
+ *
+ * Labels are those of heat and of HP_EIKONAL, shares of heat alone; they take 25 bytes for each pixel
+ * and source meanwhile. Nothing is written unless HP_OK is returned.
+ *
+ * The caller promises:
+ * As hp_solver_distances().
+ */
+hp_status hp_solver_nearest(const struct hp_solver *solver,
+                            const double *sources,
+                            uint64_t source_count,
+                            const struct hp_options *options,
+                            const struct hp_buffer *distance,
+                            const struct hp_buffer *labels,
+                            const struct hp_buffer *shares,
+                            int64_t share_stride);
+
+/**
+ * Computes the distance from each of some points to each of others: a row for each of from, with a
+ * number for each of to.
+ *
+ * from, to: from_count and to_count points, as for hp_distance().
+ *
+ * options: as for hp_solver_distances(). With HP_SOLVER_IMPLICIT points are shared between the
+ * threads; the results do not depend on how many there are.
+ *
+ * distances: describes the first row: to_count numbers, HP_F32 or HP_F64. They are infinite where no
+ * heat arrives, in the pixels around a point or at all.
+ *
+ * row_stride: the bytes from a row to the next one. 0 means that rows follow each other without
+ * gaps.
+ *
+ * From a to b is as far as from b to a up to the error of the method. If the call is cancelled a part
+ * may have been written; after any other failure nothing was.
+ *
+ * The caller promises:
+ * solver is NULL or comes from hp_solver_create() and was not freed yet. The structs are as
+ * large as their struct_size says, and the points and the list are as large as their description.
+ * The results are not used by another thread meanwhile.
+ */
+hp_status hp_solver_matrix(const struct hp_solver *solver,
+                           const double *from,
+                           uint64_t from_count,
+                           const double *to,
+                           uint64_t to_count,
+                           const struct hp_options *options,
+                           const struct hp_array *distances,
+                           int64_t row_stride);
+
+/**
+ * Computes where heat passes on its way from one end to the other: a path with a width. Where there are
+ * several ways, all show.
+ *
+ * solver: one of heat, without HP_EIKONAL and HP_HEAT_METHOD.
+ *
+ * from, to: the two ends, from_count and to_count points, as for hp_distance(); usually one each.
+ *
+ * options: threads, progress and user count. NULL for the defaults.
+ *
+ * ln_density: receives the logarithm of the time that a particle of heat that goes from one end to the
+ * other spends in a pixel, in units of the time step: it is largest along the minimal path, and
+ * minus infinity where no heat of both ends comes. Of the same size, HP_F32 or HP_F64. It is
+ * written only if HP_OK is returned.
+ *
+ * HP_NO_ANSWER is returned if no heat from one end reaches the other.
+ *
+ * The caller promises:
+ * As hp_solver_distances().
+ */
+hp_status hp_solver_bridge(const struct hp_solver *solver,
+                           const double *from,
+                           uint64_t from_count,
+                           const double *to,
+                           uint64_t to_count,
+                           const struct hp_options *options,
+                           const struct hp_buffer *ln_density);
+
+/**
  * Fills *options with the defaults; struct_size is sizeof(hp_vote_options).
  *
  * The caller promises:
@@ -1598,7 +1710,8 @@ hp_status hp_mesh_solver_create(const struct hp_mesh *mesh,
 void hp_mesh_solver_free(struct hp_mesh_solver *solver);
 
 /**
- * Writes the method of a solver to *method: HP_MESH_HEAT, HP_MESH_EIKONAL or HP_MESH_EXACT.
+ * Writes the method of a solver to *method: HP_MESH_HEAT, HP_MESH_EIKONAL, HP_MESH_EXACT or
+ * HP_MESH_EXPLICIT.
  *
  * The caller promises:
  * solver is NULL or comes from hp_mesh_solver_create(); method is NULL or points to a uint32_t.
@@ -1730,6 +1843,64 @@ hp_status hp_mesh_isolines_create(const struct hp_mesh *mesh,
                                   struct hp_paths **isolines);
 
 /**
+ * Tells where points lie on the surface of a mesh: of positions in space the nearest point of it.
+ *
+ * points: see hp_surface_points; no curve.
+ *
+ * faces: receives the number of a face for each point; HP_I32, HP_U32, HP_I64 or HP_U64. NULL if it
+ * is not wanted.
+ *
+ * weights: receives the weights of the three corners of that face; HP_F32 or HP_F64. NULL if they are
+ * not wanted.
+ *
+ * positions: receives x, y, z in space; HP_F32 or HP_F64. NULL if they are not wanted.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(). The structs are as large as their struct_size
+ * says, and lists are as large as their description. The results are not used by another thread
+ * meanwhile.
+ */
+hp_status hp_mesh_locate(const struct hp_mesh *mesh,
+                         const struct hp_surface_points *points,
+                         const struct hp_array *faces,
+                         const struct hp_array *weights,
+                         const struct hp_array *positions);
+
+/**
+ * Copies the points of a path or curve on a mesh as places on its faces, which hp_surface_points
+ * takes again.
+ *
+ * faces, weights: as for hp_mesh_locate(), hp_path_info.point_count items each.
+ *
+ * The caller promises:
+ * paths is NULL or comes from one of the functions that make paths; the lists are as large as
+ * their description.
+ */
+hp_status hp_paths_places(const struct hp_paths *paths,
+                          uint64_t index,
+                          const struct hp_array *faces,
+                          const struct hp_array *weights);
+
+/**
+ * Makes a closed curve on a mesh locally shortest: a closed geodesic, such as around a handle or a
+ * neck.
+ *
+ * points: the curve, by its points in their order; two neighbours share a face, and so do the last
+ * and the first. hp_paths_places() gives such points of an isoline, or of a path through points that
+ * comes back to its first one.
+ *
+ * loops: receives one curve, whose ending is HP_ENDED_CLOSED, or none if it contracts to a point; to
+ * be freed with hp_paths_free(), or NULL if anything but HP_OK is returned.
+ *
+ * The caller promises:
+ * mesh is NULL or comes from hp_mesh_create(). The structs are as large as their struct_size
+ * says, and lists are as large as their description.
+ */
+hp_status hp_mesh_loop_create(const struct hp_mesh *mesh,
+                              const struct hp_surface_points *points,
+                              struct hp_paths **loops);
+
+/**
  * Computes the principal curvatures at each vertex, in 1 / unit of the points: positive where the
  * surface is convex as seen from outside, where faces are counter-clockwise.
  *
@@ -1849,6 +2020,22 @@ struct hp_api {
   hp_status (*mesh_curvature)(const struct hp_mesh *mesh, const struct hp_mesh_options *options,
       const struct hp_array *smallest, const struct hp_array *largest,
       const struct hp_array *smallest_directions, const struct hp_array *largest_directions);
+  hp_status (*solver_nearest)(const struct hp_solver *solver, const double *sources,
+      uint64_t source_count, const struct hp_options *options, const struct hp_buffer *distance,
+      const struct hp_buffer *labels, const struct hp_buffer *shares, int64_t share_stride);
+  hp_status (*solver_matrix)(const struct hp_solver *solver, const double *from,
+      uint64_t from_count, const double *to, uint64_t to_count, const struct hp_options *options,
+      const struct hp_array *distances, int64_t row_stride);
+  hp_status (*solver_bridge)(const struct hp_solver *solver, const double *from,
+      uint64_t from_count, const double *to, uint64_t to_count, const struct hp_options *options,
+      const struct hp_buffer *ln_density);
+  hp_status (*mesh_locate)(const struct hp_mesh *mesh, const struct hp_surface_points *points,
+      const struct hp_array *faces, const struct hp_array *weights,
+      const struct hp_array *positions);
+  hp_status (*paths_places)(const struct hp_paths *paths, uint64_t index,
+      const struct hp_array *faces, const struct hp_array *weights);
+  hp_status (*mesh_loop_create)(const struct hp_mesh *mesh, const struct hp_surface_points *points,
+      struct hp_paths **loops);
 };
 
 #ifdef __cplusplus

@@ -22,8 +22,10 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -319,6 +321,14 @@ std::vector<Path<N>> paths(const Buffer &image, const Points<N> &sources, const 
     return detail::collect<N>(detail::PathsHandle(handle).get());
 }
 
+/** Where the results of Solver::nearest() go; what is left out is not wanted. */
+struct NearestMaps {
+    Buffer distance;
+    Buffer labels;
+    Buffer shares;
+    std::int64_t share_stride = 0;
+};
+
 /** A medium prepared for distances and paths from any sources; threads may share it. */
 class Solver {
 public:
@@ -355,6 +365,36 @@ public:
                                           detail::coordinates(ends), ends.size(), plain, &handle);
         });
         return detail::collect<N>(detail::PathsHandle(handle).get());
+    }
+
+    /** How far every pixel is from the nearest source, and which one that is; see
+     * hp_solver_nearest(). */
+    template <std::size_t N>
+    void nearest(const Points<N> &sources, const NearestMaps &maps, const Options &options = {}) const
+    {
+        detail::check_dimension(image_, N);
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_nearest(get(), detail::coordinates(sources), sources.size(), plain,
+                                     detail::optional(maps.distance), detail::optional(maps.labels),
+                                     detail::optional(maps.shares), maps.share_stride);
+        });
+    }
+
+    /** The distance from each point to each of others, row by row; see hp_solver_matrix(). */
+    template <std::size_t N>
+    std::vector<double> matrix(const Points<N> &from, const Points<N> &to,
+                               const Options &options = {}) const;
+
+    /** Where heat passes on its way from one end to the other; see hp_solver_bridge(). */
+    template <std::size_t N>
+    void bridge(const Points<N> &from, const Points<N> &to, const Buffer &ln_density,
+                const Options &options = {}) const
+    {
+        detail::check_dimension(image_, N);
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_bridge(get(), detail::coordinates(from), from.size(),
+                                    detail::coordinates(to), to.size(), plain, &ln_density);
+        });
     }
 
     const hp_solver *get() const { return handle_.get(); }
@@ -412,6 +452,9 @@ Graph<N> skeleton(const Buffer &mask, double prune = 0)
 
 /** Described items, see hp_array; the fields can be changed. */
 struct Array : hp_array {
+    /** How many numbers an item has, so that no more are read; 0 if only the caller knows. */
+    std::size_t width = 0;
+
     Array() { check(hp_array_init(this, sizeof(hp_array))); }
 
     /** Items without gaps; an item may be several numbers. Input is only read. */
@@ -429,6 +472,7 @@ struct Array : hp_array {
               class = std::enable_if_t<std::is_arithmetic_v<T>>>
     Array(Container &container) : Array(container.data(), container.size())
     {
+        width = 1;
     }
 
     /** The points of a container, one an item. */
@@ -438,8 +482,37 @@ struct Array : hp_array {
     Array(Container &container)
         : Array(container.empty() ? nullptr : container.data()->data(), container.size())
     {
+        width = std::tuple_size<P>::value;
     }
 };
+
+template <std::size_t N>
+std::vector<double> Solver::matrix(const Points<N> &from, const Points<N> &to,
+                                   const Options &options) const
+{
+    detail::check_dimension(image_, N);
+    std::vector<double> distances(from.size() * to.size());
+    const Array row(distances.data(), to.size());
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_solver_matrix(get(), detail::coordinates(from), from.size(),
+                                detail::coordinates(to), to.size(), plain, &row, 0);
+    });
+    return distances;
+}
+
+namespace detail {
+
+/* The list, if its items have so many numbers as the library will read. */
+inline const Array &with_width(const Array &list, std::size_t width, const char *name)
+{
+    if (list.width != 0 && list.width != width)
+        throw std::invalid_argument("heatpath: " + std::string(name) + " need " +
+                                    std::to_string(width) + " numbers an item, but there are " +
+                                    std::to_string(list.width));
+    return list;
+}
+
+} // namespace detail
 
 /** Curves to compare: polylines one after the other, or the pixels of a mask; see hp_curves. */
 class Curves {
@@ -514,31 +587,109 @@ public:
     /** Vertices, by their numbers. */
     static SurfacePoints vertices(const Array &numbers)
     {
-        return SurfacePoints(numbers, &hp_surface_points::vertices);
+        SurfacePoints points;
+        points.vertices_ = detail::with_width(numbers, 1, "vertices");
+        return points;
     }
 
     /** Positions in space: the nearest points of the surface. */
     static SurfacePoints positions(const Array &xyz)
     {
-        return SurfacePoints(xyz, &hp_surface_points::positions);
+        SurfacePoints points;
+        points.positions_ = detail::with_width(xyz, 3, "positions");
+        return points;
+    }
+
+    /** One source: a curve through positions in space, laid onto the surface. */
+    static SurfacePoints curve(const Array &xyz)
+    {
+        SurfacePoints points = positions(xyz);
+        points.is_curve_ = true;
+        return points;
+    }
+
+    /** Places on faces, by the weights of their three corners. */
+    static SurfacePoints on_faces(const Array &faces, const Array &weights)
+    {
+        SurfacePoints points;
+        points.faces_ = detail::with_width(faces, 1, "faces");
+        points.weights_ = detail::with_width(weights, 3, "weights");
+        return points;
+    }
+
+    /** The distance at each source. */
+    SurfacePoints &offsets(const Array &list)
+    {
+        offsets_ = detail::with_width(list, 1, "offsets");
+        return *this;
+    }
+
+    /** How the sources are called in results. */
+    SurfacePoints &labels(const Array &list)
+    {
+        labels_ = detail::with_width(list, 1, "labels");
+        return *this;
     }
 
     hp_surface_points plain() const
     {
         hp_surface_points points;
         check(hp_surface_points_init(&points, sizeof points));
-        points.*member_ = &items_;
+        const auto place = [](const std::optional<Array> &list) { return list ? &*list : nullptr; };
+        points.curve = is_curve_;
+        points.vertices = place(vertices_);
+        points.positions = place(positions_);
+        points.faces = place(faces_);
+        points.weights = place(weights_);
+        points.offsets = place(offsets_);
+        points.labels = place(labels_);
         return points;
     }
 
 private:
-    SurfacePoints(const Array &items, const hp_array *hp_surface_points::*member)
-        : items_(items), member_(member)
-    {
-    }
+    SurfacePoints() = default;
 
-    Array items_;
-    const hp_array *hp_surface_points::*member_;
+    bool is_curve_ = false;
+    std::optional<Array> vertices_, positions_, faces_, weights_, offsets_, labels_;
+};
+
+/** Points on the faces of a mesh. */
+struct Places {
+    std::vector<std::uint32_t> faces;
+    Points<3> weights;
+
+    Places() = default;
+    explicit Places(std::size_t count) : faces(count), weights(count) {}
+
+    /** The same for a call; they must outlive it. */
+    SurfacePoints points() const { return SurfacePoints::on_faces(faces, weights); }
+};
+
+/** A path or curve on a mesh, with its points in space and on faces. */
+struct SurfacePath : Path<3> {
+    Places places;
+};
+
+namespace detail {
+
+inline std::vector<SurfacePath> collect_surface(const hp_paths *handle)
+{
+    std::vector<SurfacePath> curves;
+    for (Path<3> &path : collect<3>(handle)) {
+        SurfacePath curve{std::move(path), Places(path.info.point_count)};
+        const Array faces(curve.places.faces), weights(curve.places.weights);
+        check(hp_paths_places(handle, curves.size(), &faces, &weights));
+        curves.push_back(std::move(curve));
+    }
+    return curves;
+}
+
+} // namespace detail
+
+/** The principal curvatures at each vertex and their tangents, see hp_mesh_curvature(). */
+struct Curvature {
+    std::vector<double> smallest, largest;
+    Points<3> smallest_directions, largest_directions;
 };
 
 /** A triangle mesh, cleaned; threads may share it. */
@@ -566,12 +717,69 @@ public:
         return report;
     }
 
+    /** The three vertices of each face; see hp_mesh_faces(). */
+    std::vector<std::array<std::uint32_t, 3>> faces() const
+    {
+        std::vector<std::array<std::uint32_t, 3>> corners(report().faces);
+        const Array target(corners);
+        check(hp_mesh_faces(get(), &target));
+        return corners;
+    }
+
+    /** How the surface bends. */
+    Curvature curvature(const MeshOptions &options = {}) const
+    {
+        const std::size_t count = report().vertices;
+        Curvature bends{std::vector<double>(count), std::vector<double>(count), Points<3>(count),
+                        Points<3>(count)};
+        const Array values[2] = {bends.smallest, bends.largest};
+        const Array tangents[2] = {bends.smallest_directions, bends.largest_directions};
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_curvature(get(), plain, &values[0], &values[1], &tangents[0],
+                                     &tangents[1]);
+        });
+        return bends;
+    }
+
+    /** Where points lie on the faces; see hp_mesh_locate(). count: how many there are. */
+    Places locate(const SurfacePoints &points, std::size_t count) const
+    {
+        Places places(count);
+        const hp_surface_points plain = points.plain();
+        const Array faces(places.faces), weights(places.weights);
+        check(hp_mesh_locate(get(), &plain, &faces, &weights, nullptr));
+        return places;
+    }
+
+    /** The curves along which a function of the vertices has one of some values; see
+     * hp_mesh_isolines_create(). */
+    std::vector<SurfacePath> isolines(const Array &values, const Array &levels) const
+    {
+        detail::with_width(values, 1, "values");
+        detail::with_width(levels, 1, "levels");
+        hp_paths *handle = nullptr;
+        check(hp_mesh_isolines_create(get(), &values, &levels, &handle));
+        return detail::collect_surface(detail::PathsHandle(handle).get());
+    }
+
+    /** A closed curve made locally shortest, or none; see hp_mesh_loop_create(). */
+    std::vector<SurfacePath> loop(const SurfacePoints &points) const
+    {
+        hp_paths *handle = nullptr;
+        const hp_surface_points plain = points.plain();
+        check(hp_mesh_loop_create(get(), &plain, &handle));
+        return detail::collect_surface(detail::PathsHandle(handle).get());
+    }
+
     const hp_mesh *get() const { return handle_.get(); }
 
 private:
-    Mesh(const Array &points, const Array &faces, const hp_array *starts,
-         const MeshOptions &options)
+    Mesh(const Array &points, const Array &faces, const Array *starts, const MeshOptions &options)
     {
+        detail::with_width(points, 3, "points");
+        detail::with_width(faces, starts ? 1 : 3, starts ? "corners" : "faces");
+        if (starts)
+            detail::with_width(*starts, 1, "starts");
         hp_mesh *handle = nullptr;
         detail::run(options, [&](const hp_mesh_options *plain) {
             return hp_mesh_create(&points, &faces, starts, plain, &handle);
@@ -603,18 +811,44 @@ public:
         return result;
     }
 
-    /** The same into a list of one number for each vertex. */
+    /** The same into a list of one number for each vertex, and the label of the nearest source into
+     * another one, if it has data. */
     void distances(const SurfacePoints &sources, const Array &result,
-                   const MeshOptions &options = {}) const
+                   const MeshOptions &options = {}, const Array &labels = {}) const
     {
+        detail::with_width(result, 1, "distances");
+        detail::with_width(labels, 1, "labels");
         const hp_surface_points points = sources.plain();
         detail::run(options, [&](const hp_mesh_options *plain) {
-            return hp_mesh_solver_distances(get(), &points, plain, &result, 0, nullptr, 0);
+            return hp_mesh_solver_distances(get(), &points, plain, &result, 0,
+                                            labels.data ? &labels : nullptr, 0);
         });
     }
 
+    /** The distances between all vertices, row by row; see hp_mesh_solver_matrix(). */
+    std::vector<double> matrix(const MeshOptions &options = {}) const
+    {
+        std::vector<double> distances(vertices_ * vertices_);
+        const Array row(distances.data(), vertices_);
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_solver_matrix(get(), plain, &row, 0);
+        });
+        return distances;
+    }
+
+    /** The path through some points in their order; see hp_mesh_paths_through(). */
+    SurfacePath through(const SurfacePoints &points, const MeshOptions &options = {}) const
+    {
+        hp_paths *handle = nullptr;
+        const hp_surface_points places = points.plain();
+        detail::run(options, [&](const hp_mesh_options *plain) {
+            return hp_mesh_paths_through(get(), &places, plain, &handle);
+        });
+        return detail::collect_surface(detail::PathsHandle(handle).get()).front();
+    }
+
     /** The shortest path from each end to a source; see hp_mesh_paths_create(). */
-    std::vector<Path<3>> paths(const SurfacePoints &sources, const SurfacePoints &ends,
+    std::vector<SurfacePath> paths(const SurfacePoints &sources, const SurfacePoints &ends,
                                const MeshOptions &options = {}) const
     {
         hp_paths *handle = nullptr;
@@ -622,7 +856,7 @@ public:
         detail::run(options, [&](const hp_mesh_options *plain) {
             return hp_mesh_paths_create(get(), &from, &to, plain, &handle);
         });
-        return detail::collect<3>(detail::PathsHandle(handle).get());
+        return detail::collect_surface(detail::PathsHandle(handle).get());
     }
 
     const hp_mesh_solver *get() const { return handle_.get(); }
@@ -750,7 +984,10 @@ namespace heatpath {
 /** The tuples of a VTK array: the points of a mesh, or a number for each vertex. */
 inline Array array(vtkDataArray *tuples)
 {
+    if (!tuples)
+        throw std::invalid_argument("heatpath: there is no array");
     Array array;
+    array.width = static_cast<std::size_t>(tuples->GetNumberOfComponents());
     array.type = type_of_vtk(tuples->GetDataType());
     array.data = tuples->GetVoidPointer(0);
     array.count = static_cast<std::uint64_t>(tuples->GetNumberOfTuples());
@@ -762,6 +999,8 @@ inline Mesh mesh(vtkPolyData *surface, const MeshOptions &options = {})
 {
     if (!surface->GetPoints())
         throw std::invalid_argument("heatpath: the surface has no points");
+    if (surface->GetNumberOfStrips() > 0)
+        throw std::invalid_argument("heatpath: the surface has strips: put vtkTriangleFilter before");
     vtkCellArray *polygons = surface->GetPolys();
     return Mesh(array(surface->GetPoints()->GetData()), array(polygons->GetConnectivityArray()),
                 array(polygons->GetOffsetsArray()), options);

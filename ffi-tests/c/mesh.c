@@ -21,10 +21,11 @@ static void check_errors(const double *distances, double factor, double mean, do
 /* Each method, and the solver outlives the mesh. */
 static void methods(void)
 {
-    static const double mean[4] = {0.01, 0.01, 0.015, 0.01};
+    static const double mean[5] = {0.01, 0.01, 0.015, 0.01, 0.08};
+    static const double largest[5] = {0.03, 0.03, 0.03, 0.03, 0.2};
     double distances[VERTICES];
     uint32_t method;
-    for (method = HP_MESH_AUTO; method <= HP_MESH_EXACT; method++) {
+    for (method = HP_MESH_AUTO; method <= HP_MESH_EXPLICIT; method++) {
         hp_mesh_options options = mesh_defaults();
         hp_mesh *mesh = sphere();
         hp_mesh_solver *solver;
@@ -35,7 +36,7 @@ static void methods(void)
         EXPECT(HP_OK, "", hp_mesh_solver_method(solver, &chosen));
         CHECK(chosen == (method == HP_MESH_AUTO ? HP_MESH_EXACT : method));
         distances_from(solver, 0, distances, VERTICES);
-        check_errors(distances, 1, mean[method], 0.03);
+        check_errors(distances, 1, mean[method], largest[method]);
         hp_mesh_solver_free(solver);
     }
 }

@@ -43,6 +43,8 @@ int main(void)
     AT(hp_mesh_options, bend);
     AT(hp_mesh_options, floor);
     AT(hp_mesh_options, reference);
+    AT(hp_mesh_options, iterations);
+    AT(hp_mesh_options, step);
     SIZE(hp_mesh_report);
     AT(hp_mesh_report, vertices);
     AT(hp_mesh_report, welded);

@@ -7,7 +7,7 @@ use heatpath_core::grid::distance::normalized;
 use heatpath_core::grid::heat::{Explicit, HeatOptions};
 use heatpath_core::grid::medium::{ConductivityOptions, conductivity};
 use heatpath_core::grid::{Grid, Shape, Sources};
-use heatpath_ffi_tests::{Workshop, run, text, valgrind};
+use heatpath_ffi_tests::{Workshop, repository, run, text, valgrind};
 use std::path::Path;
 use std::process::Command;
 
@@ -104,6 +104,39 @@ fn wrong_volumes_fail_in_words() {
 #[test]
 fn a_prepared_solver_gives_the_same_maps() {
     checks_itself("solver.c");
+}
+
+#[test]
+fn labels_matrices_and_bridges() {
+    checks_itself("many.c");
+}
+
+#[test]
+fn progress_is_one_run_from_0_to_1() {
+    checks_itself("progress.c");
+}
+
+#[test]
+fn every_call_that_reports_progress_is_watched() {
+    let read = |path: &str| std::fs::read_to_string(repository(path)).unwrap();
+    let (header, program) = (read("include/heatpath.h"), read("ffi-tests/c/progress.c"));
+    let calls: Vec<&str> = header
+        .split("hp_status ")
+        .filter_map(|call| call.split(';').next()?.split_once('('))
+        .filter(|(name, arguments)| {
+            arguments.contains("_options *options") && !name.ends_with("_init")
+        })
+        .map(|(name, _)| name)
+        .collect();
+    assert!(calls.len() > 15, "{calls:?}");
+    for call in calls {
+        assert!(program.contains(&format!("RUN({call}(")), "{call}");
+    }
+}
+
+#[test]
+fn places_and_loops_on_meshes() {
+    checks_itself("mesh_places.c");
 }
 
 #[test]

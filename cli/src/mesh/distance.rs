@@ -7,7 +7,7 @@ use super::output::{
     MeshFacts, VALUE_ENDINGS, crosses, is_written_as, picture, tell_report, write_arrays,
     write_picture,
 };
-use super::solve::Plan;
+use super::solve::{MEDIUM_END, PREPARE_END, Plan};
 use crate::failure::Failure;
 use crate::output;
 use crate::run::run;
@@ -51,15 +51,15 @@ pub(super) fn distance(args: &MeshDistanceArgs) -> Result<(), Failure> {
     let watch = (args.method.threads, args.out.common.quiet);
     let (map, method, mut seconds, threads) = run("distance", watch, |exec| {
         let began = Instant::now();
-        let medium = medium(&args.medium, &input, &sources, exec)?;
+        let medium = medium(&args.medium, &input, &sources, &exec.part(0.0, MEDIUM_END))?;
         let medium_seconds = began.elapsed().as_secs_f64();
-        let solver = plan.prepare(medium, exec)?;
+        let solver = plan.prepare(medium, &exec.part(MEDIUM_END, PREPARE_END))?;
         let began = Instant::now();
-        let map = solver.distance(&sources, exec)?;
+        let map = solver.distance(&sources, &exec.part(PREPARE_END, 1.0))?;
         let distance = began.elapsed().as_secs_f64();
         let prepare = solver.prepare_seconds;
         let seconds = Seconds { read, medium: medium_seconds, prepare, distance, total: 0.0 };
-        Ok((map, solver.method, seconds, exec.threads()))
+        Ok((map, solver.method(), seconds, exec.threads()))
     })?;
     if map.values().iter().all(|value| value.is_infinite()) {
         return Err(Failure::no_answer("no vertex lies as near to a source as --farthest"));

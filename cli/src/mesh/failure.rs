@@ -76,6 +76,7 @@ impl From<GeodesicsError> for Failure {
             GeodesicsError::Heat(error) => error.into(),
             GeodesicsError::Eikonal(error) => error.into(),
             GeodesicsError::Exact(error) => error.into(),
+            GeodesicsError::Explicit(error) => error.into(),
             GeodesicsError::Point(error) => error.into(),
             GeodesicsError::Values(error) => error.into(),
             GeodesicsError::Cancelled(_) => Self::interrupted(),

@@ -4,7 +4,7 @@ use super::args::MeshPathArgs;
 use super::input::Input;
 use super::medium::{self, medium};
 use super::output::{crosses, picture, tell_report, write_picture};
-use super::solve::{Plan, Route};
+use super::solve::{MEDIUM_END, PREPARE_END, Plan, Route};
 use crate::failure::Failure;
 use crate::output;
 use crate::run::run;
@@ -23,9 +23,10 @@ pub(super) fn path(args: &MeshPathArgs) -> Result<(), Failure> {
     let via = input.points("way point", &args.through, None)?;
     let watch = (args.method.threads, args.out.common.quiet);
     let (map, paths) = run("paths", watch, |exec| {
-        let medium = medium(&args.medium, &input, &sources, exec)?;
+        let medium = medium(&args.medium, &input, &sources, &exec.part(0.0, MEDIUM_END))?;
+        let solver = plan.prepare(medium, &exec.part(MEDIUM_END, PREPARE_END))?;
         let route = Route { ends: &ends, via: &via, shorten: args.shorten };
-        plan.prepare(medium, exec)?.paths(&sources, &route, exec)
+        solver.paths(&sources, &route, &exec.part(PREPARE_END, 1.0))
     })?;
     // === Write
     let out = &args.out.common;

@@ -55,6 +55,8 @@ table! {
     hp_mesh_solver_create hp_mesh_solver_free hp_mesh_solver_method
     hp_mesh_solver_distances hp_mesh_solver_matrix
     hp_mesh_paths_create hp_mesh_paths_through hp_mesh_isolines_create hp_mesh_curvature
+    hp_solver_nearest hp_solver_matrix hp_solver_bridge
+    hp_mesh_locate hp_paths_places hp_mesh_loop_create
 }
 
 /// The table of all functions, or NULL if the library has another ABI than the caller.

@@ -62,7 +62,7 @@ unsafe fn write_distance<const D: usize>(
     target.check_size(problem.mask().shape())?;
     let (prepared, exec) = problem.prepare(1.0)?;
     let solved = prepared.solve(&problem.sources, &[], problem.settings.readout, &exec)?;
-    problem.settings.progress.check(1.0)?;
+    problem.settings.run.finish()?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
     unsafe { pixels::write(&target, solved.distances.field().values()) };
     Ok(())

@@ -8,6 +8,7 @@ use crate::status::{
 use heatpath_core::evaluation::EvaluationError;
 use heatpath_core::exec::{Cancelled, ThreadsError};
 use heatpath_core::grid::StructureError;
+use heatpath_core::grid::bridge::BridgeError;
 use heatpath_core::grid::distance::EikonalError;
 use heatpath_core::grid::distance::HeatMethodError;
 use heatpath_core::grid::heat::{HeatError, ImplicitError, NoExposure};
@@ -117,6 +118,16 @@ impl From<HeatMethodError> for Failure {
             HeatMethodError::Point(error) => error.into(),
             HeatMethodError::Cancelled(cancelled) => cancelled.into(),
         }
+    }
+}
+
+impl From<BridgeError> for Failure {
+    fn from(error: BridgeError) -> Self {
+        let status = match error {
+            BridgeError::NotReached => HP_NO_ANSWER,
+            BridgeError::Size { .. } | BridgeError::NoExposure(_) => HP_PANIC,
+        };
+        Self::new(status, error.to_string())
     }
 }
 

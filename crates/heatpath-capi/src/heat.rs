@@ -3,7 +3,9 @@
 use crate::status::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
-use heatpath_core::grid::distance::{DistanceMap, normalized, normalized_each, varadhan};
+use heatpath_core::grid::distance::{
+    DistanceMap, distance_matrix, normalized, normalized_each, varadhan,
+};
 use heatpath_core::grid::heat::{
     Explicit, Heat, HeatOptions, HeatSolver, Implicit, ImplicitOptions,
 };
@@ -74,6 +76,40 @@ impl<'a, const D: usize> PreparedHeat<'a, D> {
         }
     }
 
+    /// Lets heat flow from `sources`, all equally warm at first, and keeps its exposure.
+    pub(crate) fn exposure(&self, sources: &Sources<D>, exec: &Exec) -> Result<Heat<D>, Failure> {
+        self.flow(sources, Readout::Varadhan, true, exec)
+    }
+
+    /// Lets heat flow from each of several sources by itself.
+    pub(crate) fn flow_each(
+        &self,
+        sources: &[Sources<D>],
+        exec: &Exec,
+    ) -> Result<Vec<Heat<D>>, Failure> {
+        match self {
+            Self::Explicit(medium, options) => {
+                Ok(short_lived(medium, *options)?.flow_each(sources, exec)?)
+            }
+            Self::Implicit(implicit) => Ok(implicit.flow_each(sources, exec)?),
+        }
+    }
+
+    /// The distances from each of some points to each of others.
+    pub(crate) fn matrix(
+        &self,
+        from: &Sources<D>,
+        to: &Sources<D>,
+        exec: &Exec,
+    ) -> Result<Vec<Vec<f64>>, Failure> {
+        match self {
+            Self::Explicit(medium, options) => {
+                Ok(distance_matrix(&short_lived(medium, *options)?, from, to, exec)?)
+            }
+            Self::Implicit(implicit) => Ok(distance_matrix(implicit.as_ref(), from, to, exec)?),
+        }
+    }
+
     /// The distances from each of several sources by itself.
     pub(crate) fn distances_each(
         &self,
@@ -81,18 +117,20 @@ impl<'a, const D: usize> PreparedHeat<'a, D> {
         readout: Readout,
         exec: &Exec,
     ) -> Result<Vec<DistanceMap<D>>, Failure> {
-        let heats = match self {
-            Self::Explicit(..) => sources
-                .iter()
-                .map(|sources| self.flow(sources, readout, false, exec))
-                .collect::<Result<_, _>>()?,
-            Self::Implicit(implicit) => implicit.flow_many(sources, exec)?,
-        };
+        let heats = self.flow_each(sources, exec)?;
         Ok(match readout {
             Readout::Normalized => normalized_each(&heats, exec),
             Readout::Varadhan => heats.iter().map(varadhan).collect(),
         })
     }
+}
+
+/// Heat of which only the temperature is looked at.
+fn short_lived<const D: usize>(
+    medium: &Medium<D>,
+    options: HeatOptions,
+) -> Result<Explicit<'_, D>, Failure> {
+    Ok(Explicit::new(medium, HeatOptions { exposure: false, ..options })?)
 }
 
 impl Readout {

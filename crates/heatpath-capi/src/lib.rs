@@ -10,9 +10,10 @@
 //! | `status` | what functions return, and the message that goes with it |
 //! | `buffer` | how callers describe their pixels; `view` checks that, `pixels` reads and writes them |
 //! | `array` | the same of lists; `items`, `numbers` |
-//! | `options` | medium, heat, estimator, threads and progress; `settings` and `recipe` check them |
+//! | `options` | medium, heat, estimator, threads and progress; `settings` and `recipe` check them, `run` reports |
 //! | `scene` | image, walls and recipe make a medium; `medium` shows it |
 //! | `distance`, `paths`, `solver` | the computations; `problem`, `prepared` and `heat` are what they share |
+//! | `nearest`, `matrix`, `bridge` | what else a solver tells about many points |
 //! | `extraction` | votes, key points and skeletons, as graphs |
 //! | `evaluation` | recall and precision of curves |
 //! | `mesh` | distances, paths and curvature on triangle meshes |
@@ -29,6 +30,7 @@
 
 mod api;
 mod array;
+mod bridge;
 mod buffer;
 mod distance;
 mod evaluation;
@@ -37,16 +39,18 @@ mod failure;
 mod handles;
 mod heat;
 mod items;
+mod matrix;
 mod medium;
 mod mesh;
+mod nearest;
 mod numbers;
 mod options;
 mod paths;
 mod pixels;
 mod prepared;
 mod problem;
-mod progress;
 mod recipe;
+mod run;
 mod scene;
 mod settings;
 mod solver;
@@ -57,12 +61,15 @@ mod view;
 
 pub use api::*;
 pub use array::*;
+pub use bridge::*;
 pub use buffer::*;
 pub use distance::*;
 pub use evaluation::*;
 pub use extraction::*;
+pub use matrix::*;
 pub use medium::*;
 pub use mesh::*;
+pub use nearest::*;
 pub use options::*;
 pub use paths::*;
 pub use solver::*;

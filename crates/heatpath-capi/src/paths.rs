@@ -12,6 +12,7 @@ use crate::view;
 use heatpath_core::Exec;
 use heatpath_core::grid::path::{Ending, Path, PathOptions};
 use heatpath_core::grid::{Sources, check_points};
+use heatpath_core::mesh::SurfacePoint;
 
 /// The path ends at a source.
 pub const HP_ENDED_SOURCE: u32 = 1;
@@ -25,16 +26,15 @@ pub const HP_ENDED_NOT_REACHED: u32 = 3;
 pub const HP_ENDED_STEP_LIMIT: u32 = 4;
 /// An isoline that ends at the border of a mesh, or where others meet it.
 pub const HP_ENDED_OPEN: u32 = 5;
-/// An isoline whose last point is joined to the first.
+/// An isoline or loop whose last point is joined to the first.
 pub const HP_ENDED_CLOSED: u32 = 6;
 
 /// The part of the distances in the progress of paths.
 pub(crate) const DISTANCE_SHARE: f64 = 0.9;
 
-/// Paths, one for each end point, in the order of the end points; or isolines.
+/// Paths, one for each end point, in the order of the end points; or isolines and loops.
 ///
-/// Made by hp_paths_create(), hp_mesh_paths_create(), hp_mesh_paths_through() or
-/// hp_mesh_isolines_create(), and freed by hp_paths_free(). It does not change, so any number of
+/// Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by hp_paths_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
 pub struct hp_paths {
     pub(crate) paths: Vec<Traced>,
@@ -45,6 +45,8 @@ pub(crate) struct Traced {
     pub(crate) info: hp_path_info,
     /// Those of all points, one after the other.
     pub(crate) coordinates: Vec<f64>,
+    /// The same points on the faces of a mesh; none of an image.
+    pub(crate) places: Vec<SurfacePoint>,
 }
 
 /// What is known about a path besides its points. Set struct_size, then call hp_paths_info().
@@ -138,7 +140,7 @@ unsafe fn trace<const D: usize>(
     trace_prepared(&prepared, &problem.sources, ends, &problem.settings, &exec)
 }
 
-/// The paths from `ends` to the `sources`. `exec` reports the part of the distances.
+/// The paths from `ends` to the `sources`. What `exec` reports is the part of the distances.
 pub(crate) fn trace_prepared<const D: usize>(
     prepared: &Prepared<D>,
     sources: &Sources<D>,
@@ -149,12 +151,12 @@ pub(crate) fn trace_prepared<const D: usize>(
     let solved = prepared.solve(sources, ends, settings.readout, exec)?;
     let descent = prepared.descent(sources, &solved)?;
     let mut paths = Vec::with_capacity(ends.len());
+    settings.run.part(DISTANCE_SHARE, 1.0)?;
     for (number, &end) in ends.iter().enumerate() {
-        let traced = number as f64 / ends.len() as f64;
-        settings.progress.check(DISTANCE_SHARE + (1.0 - DISTANCE_SHARE) * traced)?;
+        settings.run.check(number as f64 / ends.len() as f64)?;
         paths.push(Traced::new(&descent.path(end, &solved.distances, PathOptions::default())?));
     }
-    settings.progress.check(1.0)?;
+    settings.run.finish()?;
     Ok(paths)
 }
 
@@ -218,7 +220,7 @@ impl Traced {
             distance: path.distance,
             ..hp_path_info::defaults()
         };
-        Self { info, coordinates: path.points.as_flattened().to_vec() }
+        Self { info, coordinates: path.points.as_flattened().to_vec(), places: Vec::new() }
     }
 }
 
@@ -263,7 +265,7 @@ pub unsafe extern "C" fn hp_paths_points(
 
 /// # Safety
 /// `paths` is NULL or points to paths that live as long as they are borrowed.
-unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Traced, Failure> {
+pub(crate) unsafe fn one_of<'a>(paths: *const hp_paths, index: u64) -> Result<&'a Traced, Failure> {
     // SAFETY: the caller's promise.
     let paths = unsafe { &borrow(paths, "paths")?.paths };
     let found = usize::try_from(index).ok().and_then(|index| paths.get(index));

@@ -90,6 +90,24 @@ pub(crate) fn check_mask<const D: usize>(view: &View<D>) -> Result<(), Failure> 
     Err(Failure::new(HP_INVALID_BUFFER, "its type must be HP_U8").of(view.name))
 }
 
+/// Stores `values` into the caller's pixels, which passed [`check_labels`].
+///
+/// # Safety
+/// All pixels that the view describes can be written.
+pub(crate) unsafe fn write_labels<const D: usize>(view: &View<D>, values: &[i32]) {
+    // SAFETY: the caller's promise, and the types that `check_labels` saw.
+    unsafe { write_as(view, values, |value| value) };
+}
+
+/// Refuses a buffer that numbers of sources cannot be written to.
+pub(crate) fn check_labels<const D: usize>(view: &View<D>) -> Result<(), Failure> {
+    view.check_data()?;
+    if matches!(view.sample, Sample::I32 | Sample::U32) {
+        return Ok(());
+    }
+    Err(Failure::new(HP_INVALID_BUFFER, "its type must be HP_I32 or HP_U32").of(view.name))
+}
+
 /// # Safety
 /// All pixels that the view describes can be written, and are of type `T`.
 unsafe fn write_as<S: Copy, T, const D: usize>(

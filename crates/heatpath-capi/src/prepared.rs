@@ -1,13 +1,15 @@
 //! Media made ready for distances from any sources, by any method.
 
 use crate::heat::{PreparedHeat, Readout, Solver};
-use crate::status::Failure;
+use crate::run::Run;
+use crate::status::{Failure, HP_PANIC};
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
 use heatpath_core::grid::distance::{
     DistanceMap, Eikonal, EikonalOptions, HeatMethod, HeatMethodOptions,
 };
 use heatpath_core::grid::heat::Heat;
+use heatpath_core::grid::labels::{Labels, labels};
 use heatpath_core::grid::medium::Medium;
 use heatpath_core::grid::path::Descent;
 use std::borrow::Cow;
@@ -126,6 +128,55 @@ impl<'a, const D: usize> Prepared<'a, D> {
                 .map(|sources| Ok(self.solve(sources, &[], None, exec)?.distances))
                 .collect(),
         }
+    }
+}
+
+impl<const D: usize> Prepared<'_, D> {
+    /// Which of the sources each cell is nearest to, with shares if heat tells, and their distances if
+    /// they were found on the way. This is the work up to `end`.
+    pub(crate) fn nearest(
+        &self,
+        sources: &Sources<D>,
+        run: &Run,
+        end: f64,
+    ) -> Result<(Labels<D>, Option<DistanceMap<D>>), Failure> {
+        let exec = run.exec()?;
+        match self {
+            Self::Heat(prepared) => {
+                let (sets, mut heats) = (sources.each(), Vec::new());
+                for round in run.rounds(sets.len(), self.round(exec.threads()), end) {
+                    heats.extend(prepared.flow_each(&sets[round?], &exec)?);
+                }
+                // There is a heat for each source, all on one grid.
+                let labels = labels(&heats).ok_or_else(|| Failure::new(HP_PANIC, "no labels"))?;
+                Ok((labels, None))
+            }
+            Self::Eikonal { eikonal, farthest } => {
+                let options = EikonalOptions { farthest: *farthest, ..EikonalOptions::default() };
+                let (map, nearest) = eikonal.distance_and_nearest(sources, &options, &exec)?;
+                Ok((Labels { nearest, shares: Vec::new() }, Some(map)))
+            }
+            Self::HeatMethod(_) => Err(Failure::argument(
+                "solver: labels are of heat and of HP_EIKONAL; this one was made with \
+                 HP_HEAT_METHOD",
+            )),
+        }
+    }
+
+    /// The distances from each of some points to each of others.
+    pub(crate) fn matrix(
+        &self,
+        from: &Sources<D>,
+        to: &Sources<D>,
+        readout: Option<Readout>,
+        exec: &Exec,
+    ) -> Result<Vec<Vec<f64>>, Failure> {
+        if let (Self::Heat(heat), Some(Readout::Normalized)) = (self, readout) {
+            return heat.matrix(from, to, exec);
+        }
+        let maps = self.solve_each(&from.each(), readout, exec)?;
+        let row = |map: &DistanceMap<D>| to.points().iter().map(|&point| map.at(point)).collect();
+        Ok(maps.iter().map(row).collect())
     }
 }
 

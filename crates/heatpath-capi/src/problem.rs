@@ -3,7 +3,7 @@
 use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::prepared::Prepared;
-use crate::scene::Scene;
+use crate::scene::{MEDIUM_SHARE, Scene};
 use crate::settings::Settings;
 use crate::status::{Failure, HP_OUT_OF_MEMORY};
 use crate::view::View;
@@ -40,7 +40,7 @@ impl<const D: usize> Problem<D> {
             let points = read_points(arguments.sources, arguments.source_count, "sources")?;
             let scene = Scene::read(&image, arguments.mask, &settings)?;
             let sources = Sources::new(&points, &scene.mask)?;
-            let medium = scene.medium(&settings.recipe, sources.points())?;
+            let medium = scene.medium(&settings.recipe, sources.points(), MEDIUM_SHARE)?;
             Ok(Self { medium, sources, settings })
         }
     }
@@ -49,11 +49,10 @@ impl<const D: usize> Problem<D> {
         self.medium.mask()
     }
 
-    /// Makes the medium ready. `share` is the part of that and of what follows in all the work, for the
-    /// progress.
-    pub(crate) fn prepare(&self, share: f64) -> Result<(Prepared<'_, D>, Exec<'_>), Failure> {
-        let progress = &self.settings.progress;
-        let exec = self.settings.exec(move |finished| progress.report(share * finished))?;
+    /// Makes the medium ready. That and what follows is the work up to `end`, for the progress.
+    pub(crate) fn prepare(&self, end: f64) -> Result<(Prepared<'_, D>, Exec<'_>), Failure> {
+        self.settings.run.part(MEDIUM_SHARE, end)?;
+        let exec = self.settings.run.exec()?;
         Ok((Prepared::new(&self.medium, self.settings.approach, &exec)?, exec))
     }
 }

@@ -14,6 +14,9 @@ use heatpath_core::grid::{Grid, Mask, Shape, TensorField, fraction};
 /// What a computation needs at most, in bytes for each pixel and axis.
 const BYTES_PER_AXIS: usize = 90;
 
+/// The part of the medium in the progress of what is computed in it.
+pub(crate) const MEDIUM_SHARE: f64 = 0.2;
+
 /// An image with walls.
 pub(crate) struct Scene<'a, const D: usize> {
     image: &'a View<D>,
@@ -42,7 +45,8 @@ impl<'a, const D: usize> Scene<'a, D> {
         Ok(Self { image, settings, mask })
     }
 
-    /// The medium of a recipe, with the walls, for `sources` that may not be known yet.
+    /// The medium of a recipe, with the walls, for `sources` that may not be known yet. It is the first
+    /// `share` of the work.
     ///
     /// # Errors
     /// As the engine; or the recipe compares grey values, and there is nothing to compare with.
@@ -52,7 +56,9 @@ impl<'a, const D: usize> Scene<'a, D> {
         &self,
         recipe: &Recipe,
         sources: &[[f64; D]],
+        share: f64,
     ) -> Result<Medium<D>, Failure> {
+        self.settings.run.part(0.0, share)?;
         let image = self.image;
         let medium = match recipe {
             Recipe::Uniform => Ok(medium::uniform(image.shape)),
@@ -72,9 +78,10 @@ impl<'a, const D: usize> Scene<'a, D> {
     }
 
     fn medium_of_grey(&self, recipe: &Recipe, sources: &[[f64; D]]) -> Result<Medium<D>, Failure> {
-        let progress = &self.settings.progress;
-        let exec = self.settings.exec(|_| progress.report(0.0))?;
-        let grey = self.grey(&exec)?;
+        let exec = self.settings.run.exec()?;
+        let grey_end = if self.settings.normalize == 0.0 { 0.0 } else { 0.5 };
+        let grey = self.grey(&exec.part(0.0, grey_end))?;
+        let exec = exec.part(grey_end, 1.0);
         let medium = match recipe {
             &Recipe::Conductivity(options) => {
                 medium::conductivity(&grey, &self.references(&grey, sources)?, options)

@@ -6,15 +6,13 @@ use crate::options::{
     hp_options,
 };
 use crate::prepared::Approach;
-use crate::progress::Progress;
 use crate::recipe::{self, Recipe};
+use crate::run::Run;
 use crate::status::Failure;
-use crate::structs::{self, Versioned};
-use heatpath_core::Exec;
+use crate::structs;
 use heatpath_core::grid::distance::HeatMethodOptions;
 use heatpath_core::grid::heat::{Duration, HeatOptions, ImplicitOptions, Step};
 use heatpath_core::grid::medium::VesselnessOptions;
-use std::ops::ControlFlow;
 
 /// The options, in the engine's words.
 pub(crate) struct Settings {
@@ -31,8 +29,7 @@ pub(crate) struct Settings {
     pub(crate) approach: Approach,
     /// How heat is read; `None` for a method without heat.
     pub(crate) readout: Option<Readout>,
-    pub(crate) threads: usize,
-    pub(crate) progress: Progress,
+    pub(crate) run: Run,
 }
 
 impl Settings {
@@ -41,28 +38,16 @@ impl Settings {
     /// # Safety
     /// `options` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
     pub(crate) unsafe fn read(options: *const hp_options) -> Result<Self, Failure> {
-        let options = if options.is_null() {
-            hp_options::defaults()
-        } else {
-            // SAFETY: the caller's promise.
-            unsafe { structs::read(options, "options")? }
-        };
+        // SAFETY: the caller's promise.
+        let options = unsafe { structs::read_or_defaults(options, "options")? };
         // SAFETY: the caller promises readable scales.
         let scales = unsafe { recipe::read_scales(options.scales, options.scale_count) };
         let new = |scales| Self::new(&options, scales);
         scales.and_then(new).map_err(|failure| failure.of("options"))
     }
 
-    /// The threads, watched.
-    pub(crate) fn exec<'a>(
-        &self,
-        watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
-    ) -> Result<Exec<'a>, Failure> {
-        exec(self.threads, watch)
-    }
-
     fn new(options: &hp_options, scales: Vec<f64>) -> Result<Self, Failure> {
-        let threads = check_threads(options.threads)?;
+        let run = Run::new(options.threads, options.progress, options.user)?;
         if options.reserved != 0 {
             let message = format!("reserved is {}; it must be 0", options.reserved);
             return Err(Failure::argument(message));
@@ -84,8 +69,7 @@ impl Settings {
             reference: options.reference()?,
             approach,
             readout,
-            threads,
-            progress: Progress::new(options.progress, options.user),
+            run,
         })
     }
 }
@@ -188,27 +172,6 @@ fn not_negative((field, value): (&str, f64)) -> Result<f64, Failure> {
     Err(Failure::argument(format!("{field} is {value}; it must be finite and 0 or more")))
 }
 
-/// The caller's number of threads, if it is possible.
-pub(crate) fn check_threads(threads: u32) -> Result<usize, Failure> {
-    let most = Exec::MOST_THREADS;
-    if threads as usize <= most {
-        return Ok(threads as usize);
-    }
-    Err(Failure::argument(format!("threads is {threads}; it must be at most {most}")))
-}
-
-/// So many threads, watched.
-pub(crate) fn exec<'a>(
-    threads: usize,
-    watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
-) -> Result<Exec<'a>, Failure> {
-    let exec = match threads {
-        1 => Exec::single_threaded(),
-        threads => Exec::new(threads)?,
-    };
-    Ok(exec.with_watch(watch))
-}
-
 pub(crate) fn unknown(field: &str, number: u32, right: &str) -> Failure {
     Failure::argument(format!("{field} is {number}; it must be {right}"))
 }
@@ -216,6 +179,7 @@ pub(crate) fn unknown(field: &str, number: u32, right: &str) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structs::Versioned;
     use heatpath_core::grid::distance::EikonalOptions;
 
     fn settings(options: hp_options) -> Settings {

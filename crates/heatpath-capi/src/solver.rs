@@ -7,22 +7,21 @@ use crate::paths::{DISTANCE_SHARE, Traced, hp_paths, trace_prepared};
 use crate::pixels;
 use crate::prepared::Prepared;
 use crate::problem::read_points;
-use crate::scene::Scene;
+use crate::scene::{MEDIUM_SHARE, Scene};
 use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::view::{self, View};
 use heatpath_core::grid::{Sources, check_points};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A medium prepared for distances and paths from any sources.
 ///
 /// Made by hp_solver_create() and freed by hp_solver_free(). It does not change, so any number of
 /// threads may use it at once, and any thread may free it once the others are done.
 pub struct hp_solver {
-    medium: AnyDimension,
+    pub(crate) medium: AnyDimension,
 }
 
-enum AnyDimension {
+pub(crate) enum AnyDimension {
     Two(Prepared<'static, 2>),
     Three(Prepared<'static, 3>),
 }
@@ -75,12 +74,13 @@ unsafe fn prepare<const D: usize>(
     let (settings, medium) = unsafe {
         let settings = Settings::read(options)?;
         let image = View::read(image, "image")?;
-        let medium = Scene::read(&image, mask, &settings)?.medium(&settings.recipe, &[])?;
+        let scene = Scene::read(&image, mask, &settings)?;
+        let medium = scene.medium(&settings.recipe, &[], MEDIUM_SHARE)?;
         (settings, medium)
     };
-    let exec = settings.exec(|finished| settings.progress.report(finished))?;
-    let prepared = Prepared::new(medium, settings.approach, &exec)?;
-    settings.progress.check(1.0)?;
+    settings.run.part(MEDIUM_SHARE, 1.0)?;
+    let prepared = Prepared::new(medium, settings.approach, &settings.run.exec()?)?;
+    settings.run.finish()?;
     Ok(prepared)
 }
 
@@ -150,25 +150,17 @@ unsafe fn write_maps<const D: usize>(
     let stride = first.map_stride(map_stride, points.len()).map_err(|f| f.of("distances"))?;
     let sources = Sources::new(points, prepared.medium().mask())?.each();
     // === A few at a time, so that they need little memory
-    let (count, done, round) = (sources.len(), AtomicUsize::new(0), AtomicUsize::new(1));
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| {
-        let (done, round) = (done.load(Ordering::Relaxed), round.load(Ordering::Relaxed));
-        progress.report((done as f64 + finished * round as f64) / count as f64)
-    })?;
-    for (number, sources) in sources.chunks(prepared.round(exec.threads())).enumerate() {
-        let before = number * prepared.round(exec.threads());
-        done.store(before, Ordering::Relaxed);
-        round.store(sources.len(), Ordering::Relaxed);
-        progress.check(before as f64 / count as f64)?;
-        let maps = prepared.solve_each(sources, settings.readout, &exec)?;
-        for (place, map) in (before..).zip(&maps) {
+    let exec = settings.run.exec()?;
+    for round in settings.run.rounds(sources.len(), prepared.round(exec.threads()), 1.0) {
+        let places = round?;
+        let maps = prepared.solve_each(&sources[places.clone()], settings.readout, &exec)?;
+        for (place, map) in places.zip(&maps) {
             // SAFETY: the caller promises that the pixels can be written; their type was checked,
             // and that all maps lie within memory.
             unsafe { pixels::write(&first.moved(stride * place as isize), map.field().values()) };
         }
     }
-    progress.check(1.0)
+    settings.run.finish()
 }
 
 /// Traces the minimal path from each end point to a source, as hp_paths_create() does, in a medium that
@@ -226,9 +218,8 @@ fn trace<const D: usize>(
     let mask = prepared.medium().mask();
     let sources = Sources::new(sources, mask)?;
     check_points("end", ends, mask)?;
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| progress.report(DISTANCE_SHARE * finished))?;
-    trace_prepared(prepared, &sources, ends, settings, &exec)
+    settings.run.part(0.0, DISTANCE_SHARE)?;
+    trace_prepared(prepared, &sources, ends, settings, &settings.run.exec()?)
 }
 
 /// Frees a solver; NULL is fine.

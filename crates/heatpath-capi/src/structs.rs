@@ -77,6 +77,21 @@ pub(crate) unsafe fn read<T: Versioned>(pointer: *const T, name: &str) -> Result
     Ok(value)
 }
 
+/// Reads a struct from a caller; NULL stands for the defaults.
+///
+/// # Safety
+/// As [`read`].
+pub(crate) unsafe fn read_or_defaults<T: Versioned>(
+    pointer: *const T,
+    name: &str,
+) -> Result<T, Failure> {
+    if pointer.is_null() {
+        return Ok(T::defaults());
+    }
+    // SAFETY: the caller's promise.
+    unsafe { read(pointer, name) }
+}
+
 /// Writes `value` to a struct of the caller that has room for `size` bytes; sets its `struct_size`.
 ///
 /// # Safety

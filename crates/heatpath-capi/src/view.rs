@@ -96,6 +96,21 @@ impl<const D: usize> View<D> {
         Self::new(&buffer, name).map_err(|failure| failure.of(name))
     }
 
+    /// The buffer for a result that may not be wanted.
+    ///
+    /// # Safety
+    /// As [`read`](Self::read).
+    pub(crate) unsafe fn optional(
+        buffer: *const hp_buffer,
+        name: &'static str,
+    ) -> Result<Option<Self>, Failure> {
+        if buffer.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: the caller's promise.
+        unsafe { Self::read(buffer, name).map(Some) }
+    }
+
     fn new(buffer: &hp_buffer, name: &'static str) -> Result<Self, Failure> {
         let invalid = |message: String| Failure::new(HP_INVALID_BUFFER, message);
         check_dimension(buffer.dimension)?;

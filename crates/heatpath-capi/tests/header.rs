@@ -6,7 +6,7 @@
 use cbindgen::{Builder, Config, DocumentationLength, DocumentationStyle, Language};
 use std::path::{Path, PathBuf};
 
-const MODULES: [&str; 23] = [
+const MODULES: [&str; 27] = [
     "version",
     "status",
     "buffer",
@@ -15,6 +15,9 @@ const MODULES: [&str; 23] = [
     "medium",
     "paths",
     "solver",
+    "nearest",
+    "matrix",
+    "bridge",
     "extraction/options",
     "extraction/graph",
     "extraction/votes",
@@ -28,6 +31,7 @@ const MODULES: [&str; 23] = [
     "mesh/handle",
     "mesh/solver",
     "mesh/paths",
+    "mesh/places",
     "mesh/curvature",
     "api",
 ];

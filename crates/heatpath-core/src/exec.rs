@@ -4,7 +4,7 @@ pub use crate::simd::SimdLevel;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use thiserror::Error;
 
@@ -32,7 +32,7 @@ pub type Watch<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 /// plugin keeps its own threads, and no process-wide state is changed. Results do not depend on
 /// the number of threads.
 pub struct Exec<'a> {
-    threads: Option<Threads>,
+    threads: Option<Arc<Threads>>,
     simd: SimdLevel,
     watch: Option<Box<Watch<'a>>>,
 }
@@ -52,7 +52,7 @@ impl<'a> Exec<'a> {
             let reason = format!("at most {} are possible", Self::MOST_THREADS);
             return Err(ThreadsError { threads, reason });
         }
-        Ok(Self { threads: Some(Threads::start(threads)?), ..Self::single_threaded() })
+        Ok(Self { threads: Some(Arc::new(Threads::start(threads)?)), ..Self::single_threaded() })
     }
 
     /// Runs on the calling thread alone.
@@ -88,6 +88,18 @@ impl<'a> Exec<'a> {
     #[must_use]
     pub fn threads(&self) -> usize {
         self.threads.as_ref().map_or(1, |threads| threads.handles.len())
+    }
+
+    /// The same threads for the part from `begin` to `end` (0 to 1) of the work: what they report is
+    /// where in that part they are.
+    #[must_use]
+    pub fn part(&self, begin: f64, end: f64) -> Exec<'_> {
+        let watch = move |finished| match self.report(begin + (end - begin) * finished) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(Cancelled) => ControlFlow::Break(()),
+        };
+        let whole = Exec { threads: self.threads.clone(), simd: self.simd, watch: None };
+        whole.with_watch(watch)
     }
 
     /// Reports the finished part and asks whether to go on.

@@ -2,13 +2,15 @@
 
 use super::graph::{HP_STOP_COMPLETE, HP_STOP_MOST, hp_graph};
 use super::options::{HP_KEY_POINTS_HEAT, HP_KEY_POINTS_LENGTH, hp_key_point_options};
-use super::start::{Look, chosen, read_options, start};
+use super::start::{Look, chosen, start};
 use crate::buffer::hp_buffer;
 use crate::handles::hand_out;
 use crate::options::hp_options;
 use crate::problem::Arguments;
+use crate::scene::MEDIUM_SHARE;
 use crate::settings::{Settings, number, unknown};
 use crate::status::{Failure, guard, hp_status};
+use crate::structs;
 use crate::view;
 use heatpath_core::Exec;
 use heatpath_core::grid::Structure;
@@ -63,17 +65,17 @@ unsafe fn find<const D: usize>(
 ) -> Result<hp_graph, Failure> {
     // SAFETY: the caller's promise, for each of the pointers.
     let (options, settings) = unsafe {
-        let options = read_options(key_point_options, "key_point_options")?;
+        let options = structs::read_or_defaults(key_point_options, "key_point_options")?;
         (options, Settings::read(arguments.options)?)
     };
     let look = Look::new(options.structure, options.extent);
     let look = look.map_err(|failure| failure.of("key_point_options"))?;
     // SAFETY: the caller's promise.
     let found = unsafe { start::<D>(arguments, &settings, look)? };
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| progress.report(finished))?;
+    settings.run.part(MEDIUM_SHARE, 1.0)?;
+    let exec = settings.run.exec()?;
     let points = options.search(&found, &exec)?;
-    settings.progress.check(1.0)?;
+    settings.run.finish()?;
     let stop = match points.stop {
         Stop::Complete => HP_STOP_COMPLETE,
         Stop::Most => HP_STOP_MOST,

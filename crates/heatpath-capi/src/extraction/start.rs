@@ -2,10 +2,9 @@
 
 use crate::problem::{Arguments, read_points};
 use crate::recipe::Recipe;
-use crate::scene::Scene;
+use crate::scene::{MEDIUM_SHARE, Scene};
 use crate::settings::Settings;
 use crate::status::Failure;
-use crate::structs::{self, Versioned};
 use crate::view::View;
 use heatpath_core::grid::Structure;
 
@@ -36,21 +35,6 @@ pub(super) fn chosen(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
 }
 
-/// Reads options of extraction; NULL for the defaults.
-///
-/// # Safety
-/// `options` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
-pub(super) unsafe fn read_options<T: Versioned>(
-    options: *const T,
-    name: &str,
-) -> Result<T, Failure> {
-    if options.is_null() {
-        return Ok(T::defaults());
-    }
-    // SAFETY: the caller's promise.
-    unsafe { structs::read(options, name) }
-}
-
 /// Finds the structure; without sources, seeds in it.
 ///
 /// # Safety
@@ -71,9 +55,10 @@ pub(super) unsafe fn start<const D: usize>(
     let compares = matches!(settings.recipe, Recipe::Conductivity(_) | Recipe::Combined(..));
     if points.is_empty() && compares && settings.reference.is_none() {
         // Tubes have seeds, and these the grey values to compare with.
-        let tubes = scene.medium(&Recipe::Vesselness(settings.tubes.clone()), &[])?;
+        let tubes =
+            scene.medium(&Recipe::Vesselness(settings.tubes.clone()), &[], 0.5 * MEDIUM_SHARE)?;
         points = Structure::new(tubes, &[], None, extent)?.sources.points().to_vec();
     }
-    let medium = scene.medium(&settings.recipe, &points)?;
+    let medium = scene.medium(&settings.recipe, &points, MEDIUM_SHARE)?;
     Ok(Structure::new(medium, &points, look.level, extent)?)
 }

@@ -5,14 +5,16 @@ use super::options::{
     HP_VOTES_ACCUMULATED, HP_VOTES_BORDER, HP_VOTES_FRONT, HP_VOTES_MULTIPLE, HP_VOTES_RANDOM,
     hp_vote_options,
 };
-use super::start::{Look, chosen, read_options, start};
+use super::start::{Look, chosen, start};
 use crate::buffer::hp_buffer;
 use crate::handles::hand_out;
 use crate::options::hp_options;
 use crate::pixels;
 use crate::problem::Arguments;
+use crate::scene::MEDIUM_SHARE;
 use crate::settings::{Settings, number, unknown};
 use crate::status::{Failure, guard, hp_status};
+use crate::structs;
 use crate::view::{self, View};
 use heatpath_core::grid::skeleton::PruneOptions;
 use heatpath_core::grid::voting::{
@@ -84,10 +86,10 @@ unsafe fn find<const D: usize>(
 ) -> Result<hp_graph, Failure> {
     // SAFETY: the caller's promise, for each of the pointers.
     let (options, settings, image, density, kept) = unsafe {
-        let options = read_options(vote_options, "vote_options")?;
+        let options = structs::read_or_defaults(vote_options, "vote_options")?;
         let settings = Settings::read(arguments.options)?;
         let image = View::<D>::read(arguments.image, "image")?;
-        let [density, kept] = [target(density, "density"), target(kept, "kept")];
+        let [density, kept] = [View::optional(density, "density"), View::optional(kept, "kept")];
         (options, settings, image, density?, kept?)
     };
     for view in density.iter().chain(&kept) {
@@ -99,8 +101,8 @@ unsafe fn find<const D: usize>(
     // SAFETY: the caller's promise.
     let found = unsafe { start::<D>(arguments, &settings, look)? };
     let ballot = options.ballot(&found).map_err(|failure| failure.of("vote_options"))?;
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| progress.report(finished))?;
+    settings.run.part(MEDIUM_SHARE, 1.0)?;
+    let exec = settings.run.exec()?;
     let votes = match &ballot {
         Ballot::Heat(options) => vote(&found.medium, &found.sources, options, &exec)?,
         Ballot::FastMarching(options) => {
@@ -109,7 +111,7 @@ unsafe fn find<const D: usize>(
     };
     let prune = PruneOptions { length: options.prune, ..PruneOptions::default() };
     let graph = found.graph(&ballot.curves(&votes)).pruned(prune);
-    settings.progress.check(1.0)?;
+    settings.run.finish()?;
     // === Results
     let counts: Vec<f64> = votes.density.values().iter().map(|&count| f64::from(count)).collect();
     // SAFETY: the caller promises that the pixels can be written; their types were checked.
@@ -123,21 +125,6 @@ unsafe fn find<const D: usize>(
         Stop::Rounds => HP_STOP_ROUNDS,
     };
     Ok(hp_graph::of_skeleton(&graph, found.sources.points(), stop, votes.rounds.len()))
-}
-
-/// The buffer for a result that may not be wanted.
-///
-/// # Safety
-/// `buffer` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
-unsafe fn target<const D: usize>(
-    buffer: *const hp_buffer,
-    name: &'static str,
-) -> Result<Option<View<D>>, Failure> {
-    if buffer.is_null() {
-        return Ok(None);
-    }
-    // SAFETY: the caller's promise.
-    unsafe { View::read(buffer, name).map(Some) }
 }
 
 impl Ballot {

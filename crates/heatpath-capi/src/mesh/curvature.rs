@@ -2,10 +2,10 @@
 
 use super::handle::{hp_mesh, surface_of};
 use super::options::hp_mesh_options;
+use super::places::optional;
 use super::settings::Settings;
 use crate::array::hp_array;
-use crate::items::Items;
-use crate::status::{Failure, guard, hp_status};
+use crate::status::{guard, hp_status};
 use heatpath_core::mesh::Curvature;
 
 /// Computes the principal curvatures at each vertex, in 1 / unit of the points: positive where the
@@ -37,15 +37,17 @@ pub unsafe extern "C" fn hp_mesh_curvature(
     guard(|| unsafe {
         let (surface, settings) = (surface_of(mesh)?, Settings::read(options)?);
         let count = surface.vertex_count();
-        let values =
-            [target::<1>(smallest, "smallest", count)?, target::<1>(largest, "largest", count)?];
-        let directions = [
-            target::<3>(smallest_directions, "smallest_directions", count)?,
-            target::<3>(largest_directions, "largest_directions", count)?,
+        let values = [
+            optional::<1>(smallest, "smallest", false, count)?,
+            optional::<1>(largest, "largest", false, count)?,
         ];
-        let exec = settings.exec(|finished| settings.progress.report(finished))?;
+        let directions = [
+            optional::<3>(smallest_directions, "smallest_directions", false, count)?,
+            optional::<3>(largest_directions, "largest_directions", false, count)?,
+        ];
+        let exec = settings.run.exec()?;
         let curvature = Curvature::new(surface.mesh(), settings.curvature, &exec)?;
-        settings.progress.check(1.0)?;
+        settings.run.finish()?;
         let vertices = curvature.vertices();
         for (place, target) in values.iter().enumerate() {
             if let Some(target) = target {
@@ -59,18 +61,4 @@ pub unsafe extern "C" fn hp_mesh_curvature(
         }
         Ok(())
     })
-}
-
-/// # Safety
-/// `array` is NULL, misaligned, or points to a description.
-unsafe fn target<const N: usize>(
-    array: *const hp_array,
-    name: &'static str,
-    count: usize,
-) -> Result<Option<Items<N>>, Failure> {
-    if array.is_null() {
-        return Ok(None);
-    }
-    // SAFETY: the caller's promise.
-    Ok(Some(unsafe { Items::target(array, name, false, count, (1, 0))? }))
 }

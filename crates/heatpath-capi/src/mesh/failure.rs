@@ -2,11 +2,12 @@
 
 use crate::status::{
     Failure, HP_INVALID_ARGUMENT, HP_INVALID_BUFFER, HP_INVALID_IMAGE, HP_INVALID_MESH,
-    HP_INVALID_POINT, HP_OUT_OF_MEMORY, HP_RANGE,
+    HP_INVALID_POINT, HP_OUT_OF_MEMORY, HP_RANGE, HP_UNSTABLE_STEP,
 };
 use heatpath_core::linear::LinearError;
 use heatpath_core::mesh::clean::CleanError;
 use heatpath_core::mesh::distance::{EikonalError, ExactError, HeatMethodError};
+use heatpath_core::mesh::heat::HeatError;
 use heatpath_core::mesh::path::{ChainError, ValuesError};
 use heatpath_core::mesh::{CurvatureError, GeodesicsError, MediumError, MeshError, PointError};
 
@@ -63,6 +64,7 @@ impl From<GeodesicsError> for Failure {
             GeodesicsError::Heat(error) => error.into(),
             GeodesicsError::Eikonal(error) => error.into(),
             GeodesicsError::Exact(error) => error.into(),
+            GeodesicsError::Explicit(error) => error.into(),
             GeodesicsError::Point(error) => error.into(),
             GeodesicsError::Values(error) => error.into(),
             GeodesicsError::Cancelled(cancelled) => cancelled.into(),
@@ -111,6 +113,16 @@ impl From<ExactError> for Failure {
             }
             ExactError::Windows { .. } => Self::new(HP_INVALID_MESH, error.to_string()),
             ExactError::Cancelled(cancelled) => cancelled.into(),
+        }
+    }
+}
+
+impl From<HeatError> for Failure {
+    fn from(error: HeatError) -> Self {
+        match error {
+            HeatError::StepTooLarge { .. } => Self::new(HP_UNSTABLE_STEP, error.to_string()),
+            HeatError::Parameter(error) => Self::argument(error.to_string()),
+            HeatError::Cancelled(cancelled) => cancelled.into(),
         }
     }
 }

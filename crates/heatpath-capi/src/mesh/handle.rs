@@ -58,7 +58,7 @@ pub unsafe extern "C" fn hp_mesh_create(
         unsafe {
             let settings = Settings::read(options)?;
             let surface = Surface::read(points, faces, starts, settings.clean)?;
-            settings.progress.check(1.0)?;
+            settings.run.finish()?;
             Ok(hp_mesh { surface: Arc::new(surface) })
         }
     };

@@ -43,13 +43,14 @@ pub(crate) unsafe fn read_medium(
 }
 
 fn curvature(surface: &Surface, settings: &Settings) -> Result<Curvature, Failure> {
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| progress.report(CURVATURE_SHARE * finished))?;
-    Ok(Curvature::new(surface.mesh(), settings.curvature, &exec)?)
+    settings.run.part(0.0, CURVATURE_SHARE)?;
+    let curvature = Curvature::new(surface.mesh(), settings.curvature, &settings.run.exec()?)?;
+    settings.run.part(CURVATURE_SHARE, 1.0)?;
+    Ok(curvature)
 }
 
 /// The part of the curvature in the progress of a solver that needs it.
-pub(crate) const CURVATURE_SHARE: f64 = 0.5;
+const CURVATURE_SHARE: f64 = 0.5;
 
 /// # Safety
 /// `values` is NULL, misaligned, or points to the description of readable items.

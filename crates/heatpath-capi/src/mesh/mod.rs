@@ -2,7 +2,7 @@
 //!
 //! The rooms stand in the order of the data: `options` are checked by `settings`; a mesh (`handle`, of a
 //! `surface` with a `report`) and a `medium` are `prepared` for a `solver`, which gives distances from
-//! `points`, and `paths`. `curvature` stands by itself.
+//! `points`, and `paths`, also as `places` on faces. `curvature` stands by itself.
 
 mod curvature;
 mod failure;
@@ -10,6 +10,7 @@ mod handle;
 mod medium;
 mod options;
 mod paths;
+mod places;
 mod points;
 mod prepared;
 mod report;
@@ -21,6 +22,7 @@ pub use curvature::*;
 pub use handle::*;
 pub use options::*;
 pub use paths::*;
+pub use places::*;
 pub use points::*;
 pub use report::*;
 pub use solver::*;

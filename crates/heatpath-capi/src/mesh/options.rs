@@ -38,6 +38,9 @@ pub const HP_MESH_EIKONAL: u32 = 2;
 /// The exact distance on the triangles, by straight lines unfolded over the faces. For media that are
 /// the same everywhere, and meshes of up to some 100,000 vertices.
 pub const HP_MESH_EXACT: u32 = 3;
+/// Explicit heat in many small steps, as the paper has it: right where all edges are about equally
+/// long, and to compare with. Sources must have no offsets.
+pub const HP_MESH_EXPLICIT: u32 = 4;
 
 /// Ridges and valleys count. The default.
 pub const HP_BEND_BOTH: u32 = 0;
@@ -73,8 +76,8 @@ pub struct hp_mesh_options {
     pub weld: f64,
     /// For hp_mesh_solver_create(): HP_MESH_UNIFORM, the default, or another one up to HP_MESH_CREASE.
     pub medium: u32,
-    /// For hp_mesh_solver_create(): HP_MESH_AUTO, the default, HP_MESH_HEAT, HP_MESH_EIKONAL or
-    /// HP_MESH_EXACT.
+    /// For hp_mesh_solver_create(): HP_MESH_AUTO, the default, or another one up to
+    /// HP_MESH_EXPLICIT.
     pub method: u32,
     /// For the media that are made of values: one for each vertex or face; see hp_mesh_faces() for
     /// faces. NULL by default. It is not needed any more once the solver is made.
@@ -86,7 +89,7 @@ pub struct hp_mesh_options {
     /// default, stands for 4 GiB.
     pub memory: u64,
     /// For hp_mesh_solver_create(): the distance beyond which nothing is reached. 0, the default,
-    /// stands for no end. It saves time with all methods but HP_MESH_HEAT.
+    /// stands for no end. It saves time with HP_MESH_EIKONAL and HP_MESH_EXACT.
     pub farthest: f64,
     /// For hp_mesh_curvature() and media of curvature: the radius of the ball over which it is
     /// averaged. 0, the default, stands for 4 mean edges with HP_CURVATURE_NORMAL_CYCLES, and for
@@ -114,6 +117,13 @@ pub struct hp_mesh_options {
     pub quantile: f64,
     /// For scalars: the value f that the others are compared with. There is no default.
     pub reference: f64,
+    /// For HP_MESH_EXPLICIT: the number of time steps, up to 10^9. 0, the default, stands for enough to
+    /// reach all vertices.
+    pub iterations: u64,
+    /// For HP_MESH_EXPLICIT: the time step, where P is 1 the mean number of edges that heat goes in
+    /// one. Not a number (NAN), the default, stands for 0.2, or less where that is unstable; 0 takes a
+    /// safe fraction of the largest one that is stable.
+    pub step: f64,
 }
 
 // SAFETY: integers, floats and pointers of which any can be NULL; 8 bytes at the end.
@@ -143,6 +153,8 @@ unsafe impl Versioned for hp_mesh_options {
             power: f64::NAN,
             quantile: 0.99,
             reference: f64::NAN,
+            iterations: 0,
+            step: f64::NAN,
         }
     }
 }

@@ -52,9 +52,9 @@ pub unsafe extern "C" fn hp_mesh_paths_create(
             let ends = read_points(&tracer.prepared.surface, ends, ["end", "ends"])?;
             (tracer, sources, ends)
         };
-        let legs = tracer.legs(&sources, &ends, (0.0, 1.0))?;
-        tracer.settings.progress.check(1.0)?;
-        Ok(hp_paths { paths: legs.iter().map(Leg::traced).collect() })
+        let legs = tracer.legs(&sources, &ends)?;
+        tracer.settings.run.finish()?;
+        Ok(hp_paths { paths: legs.into_iter().map(Leg::traced).collect() })
     };
     // SAFETY: the caller promises room for a pointer.
     guard(|| unsafe { hand_out(paths, "paths", make) })
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn hp_mesh_paths_through(
             return Err(Failure::argument("points: a path needs at least two"));
         }
         let path = tracer.through(&points)?;
-        tracer.settings.progress.check(1.0)?;
+        tracer.settings.run.finish()?;
         Ok(hp_paths { paths: vec![path.traced()] })
     };
     // SAFETY: the caller promises room for a pointer.
@@ -142,14 +142,25 @@ fn curves(mesh: &TriMesh, values: &[f64], levels: &[f64]) -> Result<Vec<Traced>,
     let mut curves = Vec::new();
     for (number, (lines, &level)) in found.iter().zip(levels).enumerate() {
         curves.extend(lines.iter().map(|line| {
-            let positions: Vec<_> = line.points.iter().map(|point| mesh.position(point)).collect();
-            let around = positions.first().filter(|_| line.is_closed);
-            let length = length(positions.iter().chain(around));
             let ending = if line.is_closed { HP_ENDED_CLOSED } else { HP_ENDED_OPEN };
-            traced(&positions, (ending, number as i64), length, level)
+            curve(mesh, &line.points, (ending, number as i64), level)
         }));
     }
     Ok(curves)
+}
+
+/// A curve that is no path.
+pub(super) fn curve(
+    mesh: &TriMesh,
+    places: &[SurfacePoint],
+    (ending, source): (u32, i64),
+    distance: f64,
+) -> Traced {
+    let positions: Vec<_> = places.iter().map(|point| mesh.position(point)).collect();
+    let around = positions.first().filter(|_| ending == HP_ENDED_CLOSED);
+    let length = length(positions.iter().chain(around));
+    let places = places.to_vec();
+    Leg { positions, places, ending, source, length, distance }.traced()
 }
 
 fn length<'a>(positions: impl Iterator<Item = &'a [f64; 3]> + Clone) -> f64 {
@@ -157,21 +168,10 @@ fn length<'a>(positions: impl Iterator<Item = &'a [f64; 3]> + Clone) -> f64 {
     pairs.map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()).sum()
 }
 
-fn traced(
-    positions: &[[f64; 3]],
-    (ending, source): (u32, i64),
-    length: f64,
-    distance: f64,
-) -> Traced {
-    let point_count = positions.len() as u64;
-    let lengths = hp_path_info { length, physical_length: length, ..hp_path_info::defaults() };
-    let info = hp_path_info { ending, source, point_count, distance, ..lengths };
-    Traced { info, coordinates: positions.as_flattened().to_vec() }
-}
-
 /// A path, or a piece of one, as the caller sees it.
 struct Leg {
     positions: Vec<[f64; 3]>,
+    places: Vec<SurfacePoint>,
     ending: u32,
     source: i64,
     length: f64,
@@ -179,8 +179,12 @@ struct Leg {
 }
 
 impl Leg {
-    fn traced(&self) -> Traced {
-        traced(&self.positions, (self.ending, self.source), self.length, self.distance)
+    fn traced(self) -> Traced {
+        let Self { positions, places, ending, source, length, distance } = self;
+        let point_count = positions.len() as u64;
+        let lengths = hp_path_info { length, physical_length: length, ..hp_path_info::defaults() };
+        let info = hp_path_info { ending, source, point_count, distance, ..lengths };
+        Traced { info, coordinates: positions.as_flattened().to_vec(), places }
     }
 }
 
@@ -208,15 +212,9 @@ impl Tracer<'_> {
         Ok(Self { prepared, settings })
     }
 
-    /// Traces paths to `sources`; `begin` and `share` say which part of the progress this is.
-    fn legs(
-        &self,
-        sources: &Sources,
-        ends: &[SurfacePoint],
-        (begin, share): (f64, f64),
-    ) -> Result<Vec<Leg>, Failure> {
-        let progress = &self.settings.progress;
-        let exec = self.settings.exec(|finished| progress.report(begin + share * finished))?;
+    /// Traces paths to `sources`.
+    fn legs(&self, sources: &Sources, ends: &[SurfacePoint]) -> Result<Vec<Leg>, Failure> {
+        let exec = self.settings.run.exec()?;
         let (_, paths) = self.prepared.geodesics.paths(sources, ends, &exec)?;
         paths.into_iter().map(|path| self.leg(sources, path)).collect()
     }
@@ -224,7 +222,7 @@ impl Tracer<'_> {
     fn leg(&self, sources: &Sources, path: Path) -> Result<Leg, Failure> {
         if path.distance.is_finite() && path.distance > self.prepared.farthest {
             // The source lies on the same face.
-            return Ok(Leg::none(path.positions[0], HP_ENDED_NOT_REACHED));
+            return Ok(Leg::none(self.mesh(), path.points[0], HP_ENDED_NOT_REACHED));
         }
         let (ending, source) = match path.ending {
             Ending::Source(label) => (HP_ENDED_SOURCE, i64::from(label)),
@@ -232,10 +230,13 @@ impl Tracer<'_> {
             Ending::Unreachable if self.is_far(sources, &path) => (HP_ENDED_NOT_REACHED, -1),
             Ending::Unreachable => (HP_ENDED_UNREACHABLE, -1),
         };
-        let mesh = self.prepared.surface.mesh();
-        let path = if self.settings.shortens { shorten(mesh, &path)? } else { path };
-        let Path { positions, length, distance, .. } = path;
-        Ok(Leg { positions, ending, source, length, distance })
+        let path = if self.settings.shortens { shorten(self.mesh(), &path)? } else { path };
+        let Path { positions, points: places, length, distance, .. } = path;
+        Ok(Leg { positions, places, ending, source, length, distance })
+    }
+
+    fn mesh(&self) -> &TriMesh {
+        self.prepared.surface.mesh()
     }
 
     /// Whether a source would be reached if distances did not end.
@@ -243,21 +244,21 @@ impl Tracer<'_> {
         if self.prepared.farthest == f64::INFINITY {
             return false;
         }
-        let mesh = self.prepared.surface.mesh();
+        let mesh = self.mesh();
         let components = mesh.adjacency().components();
         let of = |point: &SurfacePoint| components[mesh.faces()[point.face as usize][0] as usize];
         sources.list().iter().any(|source| of(&source.point) == of(&path.points[0]))
     }
 
     fn through(&self, points: &[SurfacePoint]) -> Result<Leg, Failure> {
-        let mesh = self.prepared.surface.mesh();
-        let count = points.len() - 1;
-        let mut whole =
-            Leg { distance: 0.0, ..Leg::none(mesh.position(&points[0]), HP_ENDED_SOURCE) };
+        let (mesh, count) = (self.mesh(), points.len() - 1);
+        let mut whole = Leg { distance: 0.0, ..Leg::none(mesh, points[0], HP_ENDED_SOURCE) };
         for (number, pair) in points.windows(2).enumerate() {
-            let part = (number as f64 / count as f64, 1.0 / count as f64);
+            self.settings
+                .run
+                .part(number as f64 / count as f64, (number + 1) as f64 / count as f64)?;
             let sources = Sources::new(mesh, &pair[1..])?;
-            for leg in self.legs(&sources, &pair[..1], part)? {
+            for leg in self.legs(&sources, &pair[..1])? {
                 whole = whole.then(&leg);
             }
             if whole.ending != HP_ENDED_SOURCE {
@@ -270,16 +271,17 @@ impl Tracer<'_> {
 
 impl Leg {
     /// A path that leads nowhere.
-    fn none(position: [f64; 3], ending: u32) -> Self {
-        let positions = vec![position];
-        Self { positions, ending, source: -1, length: 0.0, distance: f64::INFINITY }
+    fn none(mesh: &TriMesh, place: SurfacePoint, ending: u32) -> Self {
+        let (positions, places) = (vec![mesh.position(&place)], vec![place]);
+        Self { positions, places, ending, source: -1, length: 0.0, distance: f64::INFINITY }
     }
 
     /// This one and the one that begins where it ends.
     fn then(mut self, next: &Self) -> Self {
         self.positions.extend(&next.positions[1..]);
+        self.places.extend(&next.places[1..]);
         let (ending, source) = (next.ending, next.source);
         let (length, distance) = (self.length + next.length, self.distance + next.distance);
-        Self { positions: self.positions, ending, source, length, distance }
+        Self { ending, source, length, distance, ..self }
     }
 }

@@ -4,7 +4,6 @@ use super::medium::read_medium;
 use super::settings::{Recipe, Settings};
 use super::surface::Surface;
 use crate::status::Failure;
-use heatpath_core::Exec;
 use heatpath_core::mesh::Geodesics;
 use std::sync::Arc;
 
@@ -24,14 +23,10 @@ impl Prepared {
     /// # Safety
     /// The values of the settings are NULL, misaligned, or point to the description of readable
     /// items.
-    pub(crate) unsafe fn new(
-        surface: &Arc<Surface>,
-        settings: &Settings,
-        exec: &Exec,
-    ) -> Result<Self, Failure> {
+    pub(crate) unsafe fn new(surface: &Arc<Surface>, settings: &Settings) -> Result<Self, Failure> {
         // SAFETY: the caller's promise.
         let medium = unsafe { read_medium(surface, settings)? };
-        let geodesics = Geodesics::new(medium, settings.geodesics, exec)?;
+        let geodesics = Geodesics::new(medium, settings.geodesics, &settings.run.exec()?)?;
         let is_uniform = matches!(settings.recipe, Recipe::Uniform);
         let farthest = settings.geodesics.farthest;
         Ok(Self { surface: Arc::clone(surface), geodesics, is_uniform, farthest })

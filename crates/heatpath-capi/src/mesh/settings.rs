@@ -3,22 +3,21 @@
 use super::options::{
     HP_BEND_BOTH, HP_BEND_CONCAVE, HP_BEND_CONVEX, HP_CURVATURE_LEAST_SQUARES,
     HP_CURVATURE_NORMAL_CYCLES, HP_MESH_AUTO, HP_MESH_CREASE, HP_MESH_CURVATURE, HP_MESH_EIKONAL,
-    HP_MESH_EXACT, HP_MESH_HEAT, HP_MESH_METRIC, HP_MESH_SCALARS, HP_MESH_SLOWNESS,
-    HP_MESH_SPEED_SQ, HP_MESH_UNIFORM, hp_mesh_options,
+    HP_MESH_EXACT, HP_MESH_EXPLICIT, HP_MESH_HEAT, HP_MESH_METRIC, HP_MESH_SCALARS,
+    HP_MESH_SLOWNESS, HP_MESH_SPEED_SQ, HP_MESH_UNIFORM, hp_mesh_options,
 };
 use crate::array::hp_array;
-use crate::progress::Progress;
-use crate::settings::{check_threads, exec, unknown};
+use crate::run::Run;
+use crate::settings::{number, unknown};
 use crate::status::Failure;
-use crate::structs::{self, Versioned};
-use heatpath_core::Exec;
+use crate::structs;
 use heatpath_core::mesh::clean::CleanOptions;
 use heatpath_core::mesh::distance::HeatMethodOptions;
+use heatpath_core::mesh::heat::{HeatOptions, Step};
 use heatpath_core::mesh::{
     Bend, CurvatureMediumOptions, CurvatureMethod, CurvatureOptions, GeodesicsOptions, Method,
     ScalarsOptions,
 };
-use std::ops::ControlFlow;
 
 /// A medium with what it is made from.
 #[derive(Clone, Copy)]
@@ -39,8 +38,7 @@ pub(crate) struct Settings {
     pub(crate) geodesics: GeodesicsOptions,
     pub(crate) curvature: CurvatureOptions,
     pub(crate) shortens: bool,
-    pub(crate) progress: Progress,
-    threads: usize,
+    pub(crate) run: Run,
 }
 
 impl Settings {
@@ -49,21 +47,9 @@ impl Settings {
     /// # Safety
     /// `options` is NULL, misaligned, or points to as many readable bytes as its `struct_size` says.
     pub(crate) unsafe fn read(options: *const hp_mesh_options) -> Result<Self, Failure> {
-        let options = if options.is_null() {
-            hp_mesh_options::defaults()
-        } else {
-            // SAFETY: the caller's promise.
-            unsafe { structs::read(options, "options")? }
-        };
+        // SAFETY: the caller's promise.
+        let options = unsafe { structs::read_or_defaults(options, "options")? };
         Self::new(&options).map_err(|failure| failure.of("options"))
-    }
-
-    /// The threads, watched.
-    pub(crate) fn exec<'a>(
-        &self,
-        watch: impl Fn(f64) -> ControlFlow<()> + Sync + 'a,
-    ) -> Result<Exec<'a>, Failure> {
-        exec(self.threads, watch)
     }
 
     fn new(options: &hp_mesh_options) -> Result<Self, Failure> {
@@ -77,12 +63,12 @@ impl Settings {
             geodesics: GeodesicsOptions {
                 method: options.method()?,
                 heat: options.heat(),
+                explicit: options.explicit(),
                 farthest: options.farthest()?,
             },
             curvature: options.curvature()?,
             shortens: options.shorten != 0,
-            progress: Progress::new(options.progress, options.user),
-            threads: check_threads(options.threads)?,
+            run: Run::new(options.threads, options.progress, options.user)?,
         })
     }
 }
@@ -134,7 +120,10 @@ impl hp_mesh_options {
             HP_MESH_HEAT => Ok(Method::Heat),
             HP_MESH_EIKONAL => Ok(Method::Eikonal),
             HP_MESH_EXACT => Ok(Method::Exact),
-            other => Err(unknown("method", other, "one of HP_MESH_AUTO (0) to HP_MESH_EXACT (3)")),
+            HP_MESH_EXPLICIT => Ok(Method::Explicit),
+            other => {
+                Err(unknown("method", other, "one of HP_MESH_AUTO (0) to HP_MESH_EXPLICIT (4)"))
+            }
         }
     }
 
@@ -142,11 +131,18 @@ impl hp_mesh_options {
         let usual = HeatMethodOptions::default();
         HeatMethodOptions {
             time: (self.time != 0.0).then_some(self.time),
-            memory_limit: match self.memory {
-                0 => usual.memory_limit,
-                bytes => usize::try_from(bytes).unwrap_or(usize::MAX),
-            },
+            memory_limit: number(self.memory, usual.memory_limit),
         }
+    }
+
+    fn explicit(&self) -> HeatOptions {
+        let step = match self.step {
+            0.0 => Step::Auto,
+            step if step.is_nan() => Step::Usual,
+            step => Step::Fixed(step),
+        };
+        let iterations = (self.iterations > 0).then(|| number(self.iterations, 0));
+        HeatOptions { step, iterations, ..HeatOptions::default() }
     }
 
     fn farthest(&self) -> Result<f64, Failure> {
@@ -176,6 +172,7 @@ fn or_usual(given: f64, usual: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structs::Versioned;
 
     #[test]
     fn the_defaults_are_those_of_the_engine() {

@@ -1,11 +1,12 @@
 //! Distances on meshes, prepared for many sources.
 
 use super::handle::{hp_mesh, surface_of};
-use super::medium::CURVATURE_SHARE;
-use super::options::{HP_MESH_EIKONAL, HP_MESH_EXACT, HP_MESH_HEAT, hp_mesh_options};
+use super::options::{
+    HP_MESH_EIKONAL, HP_MESH_EXACT, HP_MESH_EXPLICIT, HP_MESH_HEAT, hp_mesh_options,
+};
 use super::points::{hp_surface_points, read_sets};
 use super::prepared::Prepared;
-use super::settings::{Recipe, Settings};
+use super::settings::Settings;
 use crate::array::hp_array;
 use crate::handles::{borrow, free, hand_out};
 use crate::items::Items;
@@ -13,7 +14,6 @@ use crate::status::{Failure, guard, hp_status};
 use crate::structs::check_pointer;
 use heatpath_core::mesh::distance::{DistanceMap, NO_LABEL, NOT_REACHED};
 use heatpath_core::mesh::{Method, Sources};
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A medium on a mesh, prepared for distances and paths from any sources.
 ///
@@ -46,15 +46,9 @@ pub unsafe extern "C" fn hp_mesh_solver_create(
     let make = || {
         // SAFETY: the caller's promise.
         let (settings, surface) = unsafe { (Settings::read(options)?, surface_of(mesh)?) };
-        let begin = match settings.recipe {
-            Recipe::Curvature(_) | Recipe::Crease(_) => CURVATURE_SHARE,
-            _ => 0.0,
-        };
-        let progress = |finished| settings.progress.report(begin + (1.0 - begin) * finished);
-        let exec = settings.exec(progress)?;
         // SAFETY: the caller's promise.
-        let prepared = unsafe { Prepared::new(surface, &settings, &exec)? };
-        settings.progress.check(1.0)?;
+        let prepared = unsafe { Prepared::new(surface, &settings)? };
+        settings.run.finish()?;
         Ok(hp_mesh_solver { prepared })
     };
     // SAFETY: the caller promises room for a pointer.
@@ -71,7 +65,8 @@ pub unsafe extern "C" fn hp_mesh_solver_free(solver: *mut hp_mesh_solver) {
     guard(|| unsafe { free(solver, "solver") });
 }
 
-/// Writes the method of a solver to *method: HP_MESH_HEAT, HP_MESH_EIKONAL or HP_MESH_EXACT.
+/// Writes the method of a solver to *method: HP_MESH_HEAT, HP_MESH_EIKONAL, HP_MESH_EXACT or
+/// HP_MESH_EXPLICIT.
 ///
 /// # Safety
 /// `solver` is NULL or comes from hp_mesh_solver_create(); `method` is NULL or points to a uint32_t.
@@ -87,6 +82,7 @@ pub unsafe extern "C" fn hp_mesh_solver_method(
             method.write(match borrow(solver, "solver")?.prepared.geodesics.method() {
                 Method::Exact => HP_MESH_EXACT,
                 Method::Eikonal => HP_MESH_EIKONAL,
+                Method::Explicit => HP_MESH_EXPLICIT,
                 _ => HP_MESH_HEAT,
             });
         }
@@ -205,22 +201,13 @@ fn each_map(
     settings: &Settings,
     mut write: impl FnMut(usize, &DistanceMap),
 ) -> Result<(), Failure> {
-    let (count, done, round) = (sets.len(), AtomicUsize::new(0), AtomicUsize::new(1));
-    let progress = &settings.progress;
-    let exec = settings.exec(|finished| {
-        let (done, round) = (done.load(Ordering::Relaxed), round.load(Ordering::Relaxed));
-        progress.report((done as f64 + finished * round as f64) / count as f64)
-    })?;
-    let together = AT_ONCE * exec.threads();
-    for (number, sets) in sets.chunks(together).enumerate() {
-        let before = number * together;
-        done.store(before, Ordering::Relaxed);
-        round.store(sets.len(), Ordering::Relaxed);
-        progress.check(before as f64 / count as f64)?;
-        let maps = prepared.geodesics.distances(sets, &exec)?;
-        (before..).zip(&maps).for_each(|(place, map)| write(place, map));
+    let exec = settings.run.exec()?;
+    for round in settings.run.rounds(sets.len(), AT_ONCE * exec.threads(), 1.0) {
+        let places = round?;
+        let maps = prepared.geodesics.distances(&sets[places.clone()], &exec)?;
+        places.zip(&maps).for_each(|(place, map)| write(place, map));
     }
-    progress.check(1.0)
+    settings.run.finish()
 }
 
 /// # Safety

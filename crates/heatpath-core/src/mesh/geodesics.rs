@@ -2,8 +2,9 @@
 
 use super::distance::{
     DistanceMap, Eikonal, EikonalError, EikonalOptions, Exact, ExactError, ExactOptions,
-    HeatMethod, HeatMethodError, HeatMethodOptions,
+    HeatMethod, HeatMethodError, HeatMethodOptions, Of, VaradhanOptions, varadhan,
 };
+use super::heat::{Explicit, Heat, HeatError, HeatOptions};
 use super::path::{Descent, Ending, Path, ValuesError};
 use super::{Medium, PointError, Sources, SurfacePoint};
 use crate::error::{ParameterError, check};
@@ -29,6 +30,9 @@ pub enum Method {
     Eikonal,
     /// Windows of straight paths: exact to rounding, for one slowness everywhere.
     Exact,
+    /// The explicit heat of the paper, eqs. (15), (16) and (3), as [`varadhan`] reads it: right where
+    /// all edges are about equally long, and to compare with.
+    Explicit,
 }
 
 /// The parameters of [`Geodesics`].
@@ -38,15 +42,21 @@ pub struct GeodesicsOptions {
     pub method: Method,
     /// The parameters of the heat method, if it is that.
     pub heat: HeatMethodOptions,
-    /// Vertices beyond this distance are not reached, which saves time in all methods but heat.
-    /// Positive; default infinity.
+    /// The parameters of explicit heat, if it is that.
+    pub explicit: HeatOptions,
+    /// Vertices beyond this distance are not reached, which saves time in all methods but those of
+    /// heat. Positive; default infinity.
     pub farthest: f64,
 }
 
 impl Default for GeodesicsOptions {
     fn default() -> Self {
-        let heat = HeatMethodOptions::default();
-        Self { method: Method::default(), heat, farthest: f64::INFINITY }
+        Self {
+            method: Method::default(),
+            heat: HeatMethodOptions::default(),
+            explicit: HeatOptions::default(),
+            farthest: f64::INFINITY,
+        }
     }
 }
 
@@ -65,6 +75,9 @@ pub enum GeodesicsError {
     /// Exact distances cannot be had.
     #[error(transparent)]
     Exact(#[from] ExactError),
+    /// Explicit heat was refused or cancelled.
+    #[error(transparent)]
+    Explicit(#[from] HeatError),
     /// A source or an end is not on this mesh.
     #[error(transparent)]
     Point(#[from] PointError),
@@ -107,6 +120,7 @@ enum Solver {
     Eikonal(Eikonal),
     /// With what takes over where windows do not end, if nobody asked for them.
     Exact(Box<Exact>, Option<Eikonal>),
+    Explicit(Box<Explicit>),
 }
 
 /// Windows are for meshes of so many faces at most: they take 0.1 to 0.3 s.
@@ -132,6 +146,9 @@ impl Geodesics {
                 Solver::Exact(Box::new(Exact::new(&medium)?), instead)
             }
             Method::Eikonal => Solver::Eikonal(Eikonal::new(Arc::clone(&medium))),
+            Method::Explicit => {
+                Solver::Explicit(Box::new(Explicit::new(&medium, options.explicit)?))
+            }
             _ => Solver::Heat(Box::new(HeatMethod::new(Arc::clone(&medium), options.heat, exec)?)),
         };
         Ok(Self { medium, solver, farthest })
@@ -150,6 +167,7 @@ impl Geodesics {
             Solver::Heat(_) => Method::Heat,
             Solver::Eikonal(_) => Method::Eikonal,
             Solver::Exact(..) => Method::Exact,
+            Solver::Explicit(_) => Method::Explicit,
         }
     }
 
@@ -195,7 +213,17 @@ impl Geodesics {
                     }
                 })
             }
+            Solver::Explicit(explicit) => each(sets, exec, |sources, exec| {
+                Ok(self.read(&explicit.flow_balanced(sources, exec)?))
+            }),
         }
+    }
+
+    /// The distances of explicit heat.
+    fn read(&self, heat: &Heat) -> DistanceMap {
+        let mut map = varadhan(heat, VaradhanOptions::default());
+        map.cut(self.farthest);
+        map
     }
 
     /// The distances from the nearest of `sources`, and the paths to it from each of `ends`.
@@ -227,10 +255,34 @@ impl Geodesics {
                     }
                 }
             }
-            _ => self.distance(sources, exec)?,
+            Solver::Explicit(explicit) => {
+                let heat = explicit.flow_balanced(sources, exec)?;
+                return self.paths_of_heat(&heat, sources, ends);
+            }
+            Solver::Heat(_) | Solver::Eikonal(_) => self.distance(sources, exec)?,
         };
         let descent = Descent::new(&self.medium, map.values(), sources)?;
         let paths = ends.iter().map(|&end| descent.path(end)).collect::<Result<_, _>>()?;
+        Ok((map, paths))
+    }
+
+    /// The distances and paths of explicit heat: the minima of the exposure are the sources, those of
+    /// the distance need not be.
+    fn paths_of_heat(
+        &self,
+        heat: &Heat,
+        sources: &Sources,
+        ends: &[SurfacePoint],
+    ) -> Result<(DistanceMap, Vec<Path>), GeodesicsError> {
+        let map = self.read(heat);
+        let exposure = VaradhanOptions { of: Of::Exposure, ..VaradhanOptions::default() };
+        let slope = varadhan(heat, exposure);
+        let descent = Descent::new(&self.medium, slope.values(), sources)?;
+        let path = |&end: &SurfacePoint| {
+            let distance = map.at(self.medium.mesh(), &end);
+            Ok(Path { distance, ..descent.path(end)? })
+        };
+        let paths = ends.iter().map(path).collect::<Result<_, GeodesicsError>>()?;
         Ok((map, paths))
     }
 
@@ -254,9 +306,11 @@ impl Geodesics {
         mesh.check_points("end", points.first().copied())?;
         mesh.check_points("way", points[1..].iter().copied())?;
         let mut whole: Option<Path> = None;
-        for pair in points.windows(2) {
+        let part = |pieces: usize| pieces as f64 / (points.len() - 1) as f64;
+        for (number, pair) in points.windows(2).enumerate() {
             let sources = Sources::new(mesh, &pair[1..])?;
-            let (_, mut pieces) = self.paths(&sources, &pair[..1], exec)?;
+            let exec = exec.part(part(number), part(number + 1));
+            let (_, mut pieces) = self.paths(&sources, &pair[..1], &exec)?;
             let piece = pieces.remove(0);
             let is_there = matches!(piece.ending, Ending::Source(_));
             whole = Some(whole.map_or_else(|| piece.clone(), |path| path.then(mesh, &piece)));
@@ -291,13 +345,15 @@ fn each(
     exec: &Exec,
     map: impl Fn(&Sources, &Exec) -> Result<DistanceMap, GeodesicsError> + Sync,
 ) -> Result<Vec<DistanceMap>, GeodesicsError> {
+    let part = |done: usize| done as f64 / sets.len() as f64;
     // One thread can be watched.
     if sets.len() == 1 || exec.threads() == 1 {
-        return sets.iter().map(|sources| map(sources, exec)).collect();
+        let one = |(number, sources)| map(sources, &exec.part(part(number), part(number + 1)));
+        return sets.iter().enumerate().map(one).collect();
     }
     let mut maps = Vec::with_capacity(sets.len());
     for round in sets.chunks(exec.threads()) {
-        exec.report(maps.len() as f64 / sets.len() as f64)?;
+        exec.report(part(maps.len()))?;
         let mut jobs: Vec<_> = round.iter().map(|sources| (sources, None)).collect();
         exec.for_each(&mut jobs, |(sources, done)| {
             *done = Some(map(sources, &Exec::single_threaded()));

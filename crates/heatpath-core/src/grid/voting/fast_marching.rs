@@ -65,17 +65,22 @@ pub fn vote_by_fast_marching<const D: usize>(
     let &FastMarchingVotingOptions { ends, threshold, counting } = options;
     check_threshold(threshold)?;
     let cells = cells(ends, medium)?;
+    let eikonal = Eikonal::new(medium, exec)?;
     let distances =
-        Eikonal::new(medium, exec)?.distance(sources, &EikonalOptions::default(), exec)?;
+        eikonal.distance(sources, &EikonalOptions::default(), &exec.part(0.0, DISTANCE_END))?;
     let descent = Descent::of_distances(&distances, sources, medium);
     let ends: Vec<_> = cells.into_iter().map(|cell| medium.shape().centre(cell)).collect();
+    let exec = exec.part(DISTANCE_END, 1.0);
     let report = &mut |finished| exec.report(finished);
-    let density = votes(&descent, &ends, (counting, None), report, exec)?;
+    let density = votes(&descent, &ends, (counting, None), report, &exec)?;
     let mut tally = Tally::new(medium, sources, None);
     let least_votes = |largest| threshold * f64::from(largest);
     tally.count(&density, least_votes, (distances.reached().count(), ends.len()));
     Ok(tally.votes(Stop::Rounds))
 }
+
+/// Where the distances end in the progress.
+const DISTANCE_END: f64 = 0.7;
 
 /// The cells at which the paths begin.
 fn cells<const D: usize>(ends: Ends, medium: &Medium<D>) -> Result<Vec<usize>, VotingError> {

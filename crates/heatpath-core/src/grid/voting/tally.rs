@@ -102,7 +102,9 @@ impl<'a, const D: usize> Tally<'a, D> {
             Some(cells) => most_ends as f64 / cells.len() as f64,
             None => round.kept as f64 / (options.largest_share * self.open as f64),
         };
-        rounds.max(share).min(1.0)
+        let old = (round.kept - round.new) as f64 / round.kept.max(1) as f64;
+        let settled = old / options.settled_share();
+        rounds.max(0.5 * (share.min(1.0) + settled.min(1.0)))
     }
 
     pub(super) fn votes(self, stopped: Stop) -> Votes<D> {

@@ -192,8 +192,9 @@ impl<'a, const D: usize> HeatMethod<'a, D> {
     ) -> Result<Vec<DistanceMap<D>>, HeatMethodError> {
         let mut maps = Vec::with_capacity(sets.len());
         for round in sets.chunks(8 * exec.threads()) {
-            exec.report(maps.len() as f64 / sets.len() as f64)?;
-            maps.extend(self.round(round, exec)?);
+            let part = |maps: usize| maps as f64 / sets.len() as f64;
+            let exec = exec.part(part(maps.len()), part(maps.len() + round.len()));
+            maps.extend(self.round(round, &exec)?);
         }
         exec.report(1.0)?;
         Ok(maps)
@@ -211,7 +212,7 @@ impl<'a, const D: usize> HeatMethod<'a, D> {
         };
         let moved: Vec<Sources<D>> = sets.iter().map(moved).collect::<Result<_, _>>()?;
         // === Heat for a short time
-        let heats = self.implicit.flow_many(&moved, exec)?;
+        let heats = self.implicit.flow_many(&moved, &exec.part(0.0, 0.5))?;
         // === The divergence of its direction
         let mut sides: Vec<_> = sets.iter().zip(heats).map(|pair| (pair, Vec::new())).collect();
         exec.for_each(&mut sides, |((sources, heat), side)| {
