@@ -129,6 +129,75 @@ static void failures_are_thrown()
     }
 }
 
+static void many_points()
+{
+    heatpath::Options options;
+    options.medium = HP_MEDIUM_UNIFORM;
+    const heatpath::Solver solver(picture(), options);
+    const heatpath::Points<2> sources{{4, 8}, {19, 8}};
+    std::vector<std::int32_t> labels(PIXELS);
+    std::vector<double> shares(2 * PIXELS), density(PIXELS);
+    heatpath::NearestMaps maps;
+    maps.labels = heatpath::Buffer(labels.data(), {WIDTH, HEIGHT});
+    maps.shares = heatpath::Buffer(shares.data(), {WIDTH, HEIGHT});
+    solver.nearest(sources, maps);
+    CHECK(labels[3 * WIDTH + 2] == 0 && labels[3 * WIDTH + 20] == 1);
+    CHECK(fabs(shares[8 * WIDTH + 4] + shares[PIXELS + 8 * WIDTH + 4] - 1) < 1e-12);
+    const std::vector<double> row = solver.matrix(from, sources);
+    CHECK(row.size() == 2 && fabs(row[0] - 3) < 0.5 && row[1] > 12);
+    solver.bridge<2>({sources[0]}, {sources[1]}, heatpath::Buffer(density.data(), {WIDTH, HEIGHT}));
+    CHECK(density[8 * WIDTH + 11] > density[2 * WIDTH + 11]);
+}
+
+/* More numbers than there are would be read. */
+template <class Call>
+static void refuses(const char *words, Call call)
+{
+    try {
+        call();
+        CHECK(!"items of another width are refused");
+    } catch (const std::invalid_argument &error) {
+        CHECK(strstr(error.what(), words));
+    }
+}
+
+static void widths()
+{
+    const std::vector<double> flat{0, 0, 0, 3, 0, 0, 3, 4, 0};
+    const std::vector<heatpath::Point<3>> points{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}};
+    const std::vector<std::array<int, 3>> faces{{0, 1, 2}};
+    const std::vector<int> corners{0, 1, 2};
+    refuses("points need 3 numbers an item, but there are 1", [&] { heatpath::Mesh(flat, faces); });
+    refuses("faces need 3", [&] { heatpath::Mesh(points, corners); });
+    refuses("positions need 3", [&] { heatpath::SurfacePoints::positions(flat); });
+    refuses("vertices need 1", [&] { heatpath::SurfacePoints::vertices(faces); });
+    CHECK(heatpath::Mesh(heatpath::Array(flat.data(), 3), faces).report().vertices == 3);
+}
+
+static void places_on_meshes(const heatpath::Mesh &mesh, const heatpath::MeshSolver &solver)
+{
+    const std::vector<heatpath::Point<3>> above{{1, 1, 1}, {2, 3, 1}};
+    const heatpath::Places places = mesh.locate(heatpath::SurfacePoints::positions(above), 2);
+    CHECK(places.faces.size() == 2 && places.weights[0][0] > 0);
+    const heatpath::SurfacePath path = solver.through(places.points());
+    CHECK(path.arrived() && fabs(path.info.length - std::sqrt(5.0)) < 1e-9);
+    CHECK(path.places.faces.size() == path.points.size());
+    const std::vector<double> heights{0, 0, 4, 4}, levels{1};
+    const auto lines = mesh.isolines(heights, levels);
+    CHECK(lines.size() == 1 && lines[0].info.ending == HP_ENDED_OPEN);
+    const std::array<int, 3> triangle{0, 1, 2};
+    CHECK(mesh.loop(heatpath::SurfacePoints::vertices(triangle)).empty());
+    CHECK(mesh.faces()[1][2] == 3 && mesh.curvature().largest.size() == 4);
+    const std::vector<double> matrix = solver.matrix();
+    CHECK(matrix.size() == 16 && fabs(matrix[2] - 5) < 1e-12);
+    const std::array<int, 2> sources{0, 2}, called{7, 9};
+    std::vector<double> distances(4);
+    std::vector<int> labels(4);
+    auto both = heatpath::SurfacePoints::vertices(sources);
+    solver.distances(both.labels(called), distances, {}, labels);
+    CHECK(labels[0] == 7 && labels[2] == 9 && distances[1] == 3);
+}
+
 static void meshes()
 {
     const std::vector<heatpath::Point<3>> points{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 4, 0}};
@@ -143,6 +212,7 @@ static void meshes()
     CHECK(paths[0].arrived() && fabs(paths[0].info.length - 5) < 1e-9);
     const std::vector<heatpath::Point<3>> above{{3, 0, 1}};
     CHECK(fabs(solver.distances(heatpath::SurfacePoints::positions(above))[0] - 3) < 1e-12);
+    places_on_meshes(mesh, solver);
     const std::array<int, 8> corners{0, 1, 2, 3};
     const std::array<int, 2> starts{0, 4};
     const heatpath::Mesh square(points, heatpath::Array(corners.data(), 4), starts);
@@ -157,6 +227,8 @@ int main()
     solvers_move();
     graphs_are_values();
     failures_are_thrown();
+    many_points();
+    widths();
     meshes();
     return failures != 0;
 }

@@ -5,16 +5,18 @@
 
 use heatpath::{
     HP_ENDED_SOURCE, HP_F64, HP_MESH_AUTO, HP_MESH_CREASE, HP_MESH_CURVATURE, HP_MESH_EIKONAL,
-    HP_MESH_EXACT, HP_MESH_HEAT, HP_MESH_SPEED_SQ, HP_MESH_UNIFORM, HP_OK, HP_U32, hp_array,
-    hp_array_init, hp_mesh, hp_mesh_create, hp_mesh_curvature, hp_mesh_free, hp_mesh_options,
-    hp_mesh_options_init, hp_mesh_paths_create, hp_mesh_solver, hp_mesh_solver_create,
-    hp_mesh_solver_distances, hp_mesh_solver_free, hp_path_info, hp_paths, hp_paths_free,
-    hp_paths_info, hp_paths_points, hp_surface_points, hp_surface_points_init,
+    HP_MESH_EXACT, HP_MESH_EXPLICIT, HP_MESH_HEAT, HP_MESH_SPEED_SQ, HP_MESH_UNIFORM, HP_OK,
+    HP_U32, hp_array, hp_array_init, hp_mesh, hp_mesh_create, hp_mesh_curvature, hp_mesh_free,
+    hp_mesh_options, hp_mesh_options_init, hp_mesh_paths_create, hp_mesh_solver,
+    hp_mesh_solver_create, hp_mesh_solver_distances, hp_mesh_solver_free, hp_path_info, hp_paths,
+    hp_paths_free, hp_paths_info, hp_paths_places, hp_paths_points, hp_surface_points,
+    hp_surface_points_init,
 };
 use heatpath_core::Exec;
 use heatpath_core::mesh::path::{Ending, shorten};
 use heatpath_core::mesh::{
-    Curvature, Geodesics, GeodesicsOptions, Medium, Method, Source, Sources, TriMesh, shapes,
+    Curvature, Geodesics, GeodesicsOptions, Medium, Method, Source, Sources, SurfacePoint, TriMesh,
+    shapes,
 };
 use std::mem::zeroed;
 use std::ptr::{null, null_mut};
@@ -209,10 +211,25 @@ fn c_path(paths: *const hp_paths, index: u64) -> (hp_path_info, Vec<[f64; 3]>) {
     (info, points)
 }
 
+/// The points of a path on faces as C sees them.
+fn c_places(paths: *const hp_paths, index: u64, count: usize) -> Vec<SurfacePoint> {
+    let (mut faces, mut weights) = (vec![0_u32; count], vec![[0.0; 3]; count]);
+    let [on, shares] = [array(&faces, HP_U32, count), array(&weights, HP_F64, count)];
+    // SAFETY: the lists describe the vectors above.
+    assert_eq!(unsafe { hp_paths_places(paths, index, &on, &shares) }, HP_OK);
+    // Written behind the compiler's back.
+    let (faces, weights) = (std::hint::black_box(&mut faces), std::hint::black_box(&mut weights));
+    faces.iter().zip(weights).map(|(&face, &mut weights)| SurfacePoint { face, weights }).collect()
+}
+
 #[test]
 fn paths_are_those_of_the_engine() {
     let (mesh, exec) = (torus(), Exec::single_threaded());
-    for (number, method) in [(HP_MESH_HEAT, Method::Heat), (HP_MESH_EXACT, Method::Exact)] {
+    for (number, method) in [
+        (HP_MESH_HEAT, Method::Heat),
+        (HP_MESH_EXACT, Method::Exact),
+        (HP_MESH_EXPLICIT, Method::Explicit),
+    ] {
         let geodesics = engine(method, Medium::uniform(mesh.clone()).unwrap());
         let sources = Sources::at_vertices(&mesh, &SOURCES).unwrap();
         let ends = ENDS.map(|vertex| mesh.at_vertex("end", 0, vertex).unwrap());
@@ -237,6 +254,7 @@ fn paths_are_those_of_the_engine() {
                 assert_eq!((info.ending, info.source), (HP_ENDED_SOURCE, i64::from(label)));
                 assert_eq!((info.length, info.distance), (path.length, path.distance));
                 assert_eq!(points, path.positions);
+                assert_eq!(c_places(paths, index as u64, path.points.len()), path.points);
             }
             // SAFETY: freed once.
             unsafe { hp_paths_free(paths) };

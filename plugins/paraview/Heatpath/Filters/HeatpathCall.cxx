@@ -5,97 +5,74 @@
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <cmath>
-#include <map>
-#include <string>
+#include <exception>
+#include <utility>
 
-int heatpathProgress(double finished, void *algorithm)
+int callHeatpath(vtkAlgorithm *filter, const std::function<void()> &work)
 {
-    auto *self = static_cast<vtkAlgorithm *>(algorithm);
-    self->UpdateProgress(finished);
-    return self->GetAbortExecute();
+    try {
+        work();
+        return 1;
+    } catch (const heatpath::Error &error) {
+        if (error.status() == HP_CANCELLED)
+            return 1;
+        vtkErrorWithObjectMacro(filter, << error.what());
+    } catch (const std::exception &error) {
+        vtkErrorWithObjectMacro(filter, << error.what());
+    }
+    return 0;
 }
 
-std::vector<double> pointsOf(vtkDataSet *data)
+std::function<bool(double)> progressOf(vtkAlgorithm *filter, double begin, double end)
 {
-    std::vector<double> coordinates;
-    const vtkIdType count = data ? data->GetNumberOfPoints() : 0;
-    for (vtkIdType i = 0; i < count; i++) {
-        double point[3];
-        data->GetPoint(i, point);
-        coordinates.insert(coordinates.end(), point, point + 3);
-    }
-    return coordinates;
+    return [=](double finished) {
+        filter->UpdateProgress(begin + (end - begin) * finished);
+        return !filter->GetAbortExecute();
+    };
 }
 
-namespace {
-
-// Arrays of the lines by name, made when they are first filled.
-class Columns {
-  public:
-    void add(const char *name, double value)
-    {
-        auto &column = this->columns[name];
-        if (!column) {
-            column = vtkSmartPointer<vtkDoubleArray>::New();
-            column->SetName(name);
-        }
-        column->InsertNextValue(value);
-    }
-
-    void moveTo(vtkPolyData *lines) const
-    {
-        for (const auto &[name, column] : this->columns)
-            lines->GetCellData()->AddArray(column);
-    }
-
-  private:
-    std::map<std::string, vtkSmartPointer<vtkDoubleArray>> columns;
-};
-
-void addLine(const std::vector<double> &line, int dimension, const ToWorld &world,
-             vtkPoints *points, vtkCellArray *cells)
+heatpath::Points<3> pointsOf(vtkDataSet *data)
 {
-    const auto count = static_cast<vtkIdType>(line.size()) / dimension;
-    cells->InsertNextCell(static_cast<int>(count));
-    for (vtkIdType i = 0; i < count; i++) {
+    heatpath::Points<3> points(data ? data->GetNumberOfPoints() : 0);
+    for (std::size_t i = 0; i < points.size(); i++)
+        data->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+    return points;
+}
+
+Lines::Lines(ToWorld place)
+    : world(std::move(place)), points(vtkSmartPointer<vtkPoints>::New()),
+      cells(vtkSmartPointer<vtkCellArray>::New())
+{
+    this->points->SetDataTypeToDouble();
+    const char *names[] = {"end", "source", "length", "distance"};
+    for (int i = 0; i < 4; i++) {
+        this->columns[i] = vtkSmartPointer<vtkDoubleArray>::New();
+        this->columns[i]->SetName(names[i]);
+    }
+}
+
+void Lines::add(const hp_path_info &info, const double *coordinates, int dimension)
+{
+    const auto end = static_cast<double>(this->cells->GetNumberOfCells());
+    this->cells->InsertNextCell(static_cast<int>(info.point_count));
+    for (std::uint64_t i = 0; i < info.point_count; i++) {
         double place[3];
-        world(&line[i * dimension], place);
-        cells->InsertCellPoint(points->InsertNextPoint(place));
+        this->world(coordinates + i * dimension, place);
+        this->cells->InsertCellPoint(this->points->InsertNextPoint(place));
     }
+    const double distance = std::isfinite(info.distance) ? info.distance : -1;
+    const double values[] = {end, static_cast<double>(info.source), info.physical_length, distance};
+    for (int i = 0; i < 4; i++)
+        this->columns[i]->InsertNextValue(values[i]);
 }
 
-} // namespace
-
-hp_status makeLines(const hp_paths *paths, int dimension, const ToWorld &world, vtkPolyData *lines)
+void Lines::end(vtkPolyData *lines) const
 {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> cells;
-    Columns columns;
-    std::uint64_t count = 0;
-    hp_status status = hp_paths_count(paths, &count);
-    for (std::uint64_t i = 0; i < count && status == HP_OK; i++) {
-        hp_path_info info;
-        info.struct_size = sizeof info;
-        status = hp_paths_info(paths, i, &info);
-        if (status != HP_OK)
-            break;
-        std::vector<double> line(info.point_count * dimension);
-        status = hp_paths_points(paths, i, line.data(), info.point_count);
-        addLine(line, dimension, world, points, cells);
-        columns.add("end", static_cast<double>(i));
-        columns.add("source", static_cast<double>(info.source));
-        columns.add("length", info.physical_length);
-        columns.add("distance", std::isfinite(info.distance) ? info.distance : -1);
-    }
-    lines->SetPoints(points);
-    lines->SetLines(cells);
-    columns.moveTo(lines);
-    return status;
+    lines->SetPoints(this->points);
+    lines->SetLines(this->cells);
+    for (const auto &column : this->columns)
+        lines->GetCellData()->AddArray(column);
 }

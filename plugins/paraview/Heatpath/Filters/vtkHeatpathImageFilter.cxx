@@ -10,11 +10,12 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 vtkHeatpathImageFilter::vtkHeatpathImageFilter()
 {
-    hp_options usual;
-    hp_options_init(&usual, sizeof usual);
+    const heatpath::Options usual;
     this->Medium = static_cast<int>(usual.medium);
     this->EdgeStop = static_cast<int>(usual.edge_stop);
     this->Directions = static_cast<int>(usual.directions);
@@ -55,7 +56,7 @@ void vtkHeatpathImageFilter::ClearScales()
     this->Modified();
 }
 
-void vtkHeatpathImageFilter::DescribeMedium(hp_options &options) const
+void vtkHeatpathImageFilter::DescribeMedium(heatpath::Options &options) const
 {
     options.medium = static_cast<std::uint32_t>(this->Medium);
     if (this->Power != 0)
@@ -81,10 +82,9 @@ void vtkHeatpathImageFilter::DescribeMedium(hp_options &options) const
     options.scale_count = this->Scales.size();
 }
 
-hp_options vtkHeatpathImageFilter::Options()
+heatpath::Options vtkHeatpathImageFilter::Options()
 {
-    hp_options options;
-    hp_options_init(&options, sizeof options);
+    heatpath::Options options;
     this->DescribeMedium(options);
     options.estimator = static_cast<std::uint32_t>(this->Estimator);
     options.solver = static_cast<std::uint32_t>(this->Solver);
@@ -92,21 +92,18 @@ hp_options vtkHeatpathImageFilter::Options()
     options.time = this->Time;
     options.farthest = this->Farthest;
     options.threads = static_cast<std::uint32_t>(std::max(this->Threads, 0));
-    options.progress = heatpathProgress;
-    options.user = this;
+    options.on_progress = progressOf(this);
     return options;
 }
 
-bool vtkHeatpathImageFilter::Describe(vtkImageData *image, hp_buffer &buffer)
+heatpath::Buffer vtkHeatpathImageFilter::Describe(vtkImageData *image)
 {
     vtkDataArray *scalars = this->GetInputArrayToProcess(0, image);
     if (!scalars || scalars->GetNumberOfTuples() != image->GetNumberOfPoints() || this->Component < 0 ||
-        this->Component >= scalars->GetNumberOfComponents()) {
-        vtkErrorMacro("Scalars: the image has no point array of that name with a component "
-                      << this->Component);
-        return false;
-    }
-    hp_buffer_init(&buffer, sizeof buffer);
+        this->Component >= scalars->GetNumberOfComponents())
+        throw std::invalid_argument("Scalars: the image has no point array of that name with a component " +
+                                    std::to_string(this->Component));
+    heatpath::Buffer buffer;
     buffer.type = heatpath::type_of_vtk(scalars->GetDataType());
     const int bytes = scalars->GetDataTypeSize();
     buffer.data = static_cast<char *>(scalars->GetVoidPointer(0)) + this->Component * bytes;
@@ -123,27 +120,30 @@ bool vtkHeatpathImageFilter::Describe(vtkImageData *image, hp_buffer &buffer)
         }
         stride *= size[axis];
     }
-    if (this->Axes.size() < 2) {
-        vtkErrorMacro("the image is a line: it has " << size[0] << " x " << size[1] << " x "
-                                                     << size[2] << " points");
-        return false;
-    }
+    if (this->Axes.size() < 2)
+        throw std::invalid_argument("the image is a line: it has " + std::to_string(size[0]) + " x " +
+                                    std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+                                    " points");
     buffer.dimension = static_cast<std::uint32_t>(this->Axes.size());
-    return true;
+    return buffer;
 }
 
-std::vector<double> vtkHeatpathImageFilter::ToPixels(vtkImageData *image, vtkDataSet *points) const
+template <std::size_t N>
+heatpath::Points<N> vtkHeatpathImageFilter::ToPixels(vtkImageData *image, vtkDataSet *points) const
 {
-    std::vector<double> pixels;
-    const std::vector<double> world = pointsOf(points);
-    for (std::size_t i = 0; i < world.size(); i += 3) {
+    heatpath::Points<N> pixels;
+    for (const auto &world : pointsOf(points)) {
         double index[3];
-        image->TransformPhysicalPointToContinuousIndex(&world[i], index);
-        for (const int axis : this->Axes)
-            pixels.push_back(index[axis] - image->GetExtent()[2 * axis]);
+        image->TransformPhysicalPointToContinuousIndex(world.data(), index);
+        auto &pixel = pixels.emplace_back();
+        for (std::size_t own = 0; own < N; own++)
+            pixel[own] = index[this->Axes[own]] - image->GetExtent()[2 * this->Axes[own]];
     }
     return pixels;
 }
+
+template heatpath::Points<2> vtkHeatpathImageFilter::ToPixels<2>(vtkImageData *, vtkDataSet *) const;
+template heatpath::Points<3> vtkHeatpathImageFilter::ToPixels<3>(vtkImageData *, vtkDataSet *) const;
 
 void vtkHeatpathImageFilter::ToWorld(vtkImageData *image, const double *point, double *world) const
 {

@@ -11,12 +11,18 @@
 
 #include <vtkDataObjectAlgorithm.h>
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
-struct hp_buffer;
-struct hp_options;
 class vtkDataSet;
 class vtkImageData;
+
+namespace heatpath
+{
+struct Buffer;
+struct Options;
+}
 
 class HEATPATHFILTERS_EXPORT vtkHeatpathImageFilter : public vtkDataObjectAlgorithm
 {
@@ -96,11 +102,12 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   // The options, with this filter's progress.
-  hp_options Options();
-  // The image where it is; false and an error if heatpath cannot take it. Fills Axes.
-  bool Describe(vtkImageData* image, hp_buffer& buffer);
-  // The points of a data set in pixel coordinates along Axes.
-  std::vector<double> ToPixels(vtkImageData* image, vtkDataSet* points) const;
+  heatpath::Options Options();
+  // The image where it is; throws if heatpath cannot take it. Fills Axes.
+  heatpath::Buffer Describe(vtkImageData* image);
+  // The points of a data set in pixel coordinates along Axes, of which there are N.
+  template <std::size_t N>
+  std::vector<std::array<double, N>> ToPixels(vtkImageData* image, vtkDataSet* points) const;
   // And back.
   void ToWorld(vtkImageData* image, const double* point, double* world) const;
 
@@ -112,7 +119,7 @@ private:
   void operator=(const vtkHeatpathImageFilter&) = delete;
 
   // Fills what is about the medium.
-  void DescribeMedium(hp_options& options) const;
+  void DescribeMedium(heatpath::Options& options) const;
 
   int Medium;
   double Power = 0;

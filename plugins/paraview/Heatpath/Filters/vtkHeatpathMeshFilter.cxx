@@ -2,18 +2,15 @@
 
 #include "HeatpathCall.h"
 
-#include <vtkCellArray.h>
-#include <vtkDataArray.h>
 #include <vtkInformation.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 vtkHeatpathMeshFilter::vtkHeatpathMeshFilter()
 {
-    hp_mesh_options usual;
-    hp_mesh_options_init(&usual, sizeof usual);
+    const heatpath::MeshOptions usual;
     this->Medium = static_cast<int>(usual.medium);
     this->Method = static_cast<int>(usual.method);
     this->Bend = static_cast<int>(usual.bend);
@@ -26,10 +23,9 @@ int vtkHeatpathMeshFilter::FillInputPortInformation(int port, vtkInformation *in
     return 1;
 }
 
-hp_mesh_options vtkHeatpathMeshFilter::Options()
+heatpath::MeshOptions vtkHeatpathMeshFilter::Options()
 {
-    hp_mesh_options options;
-    hp_mesh_options_init(&options, sizeof options);
+    heatpath::MeshOptions options;
     options.medium = static_cast<std::uint32_t>(this->Medium);
     options.method = static_cast<std::uint32_t>(this->Method);
     options.bend = static_cast<std::uint32_t>(this->Bend);
@@ -37,34 +33,18 @@ hp_mesh_options vtkHeatpathMeshFilter::Options()
     options.threads = static_cast<std::uint32_t>(std::max(this->Threads, 0));
     if (this->Weld >= 0)
         options.weld = this->Weld;
-    options.progress = heatpathProgress;
-    options.user = this;
+    options.on_progress = progressOf(this, 0.5, 1);
     return options;
 }
 
-hp_mesh_solver *vtkHeatpathMeshFilter::Prepare(vtkPolyData *surface, const hp_mesh_options &options)
+heatpath::MeshSolver vtkHeatpathMeshFilter::Prepare(vtkPolyData *surface)
 {
-    if (surface->GetNumberOfStrips() > 0 || surface->GetNumberOfPolys() == 0) {
-        vtkErrorMacro("the surface must have polygons and no strips: put Triangulate before");
-        return nullptr;
-    }
-    const heatpath::Array points = heatpath::array(surface->GetPoints()->GetData());
-    const heatpath::Array corners = heatpath::array(surface->GetPolys()->GetConnectivityArray());
-    const heatpath::Array starts = heatpath::array(surface->GetPolys()->GetOffsetsArray());
-    hp_mesh *mesh = nullptr;
-    hp_mesh_solver *solver = nullptr;
-    hp_status status = hp_mesh_create(&points, &corners, &starts, &options, &mesh);
-    if (status == HP_OK)
-        status = hp_mesh_solver_create(mesh, &options, &solver);
-    hp_mesh_free(mesh);
-    this->Finish(status);
-    return solver;
-}
-
-int vtkHeatpathMeshFilter::Finish(int status)
-{
-    if (status == HP_OK || status == HP_CANCELLED)
-        return 1;
-    vtkErrorMacro(<< hp_last_error_message());
-    return 0;
+    if (surface->GetNumberOfStrips() > 0 || surface->GetNumberOfPolys() == 0)
+        throw std::invalid_argument(
+            "the surface must have polygons and no strips: put Triangulate before");
+    heatpath::MeshOptions options = this->Options();
+    options.on_progress = progressOf(this, 0, 0.1);
+    const heatpath::Mesh mesh = heatpath::mesh(surface, options);
+    options.on_progress = progressOf(this, 0.1, 0.5);
+    return heatpath::MeshSolver(mesh, options);
 }

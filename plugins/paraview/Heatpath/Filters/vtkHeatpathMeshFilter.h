@@ -11,9 +11,11 @@
 
 #include <vtkPolyDataAlgorithm.h>
 
-struct hp_mesh;
-struct hp_mesh_options;
-struct hp_mesh_solver;
+namespace heatpath
+{
+struct MeshOptions;
+class MeshSolver;
+}
 
 class HEATPATHFILTERS_EXPORT vtkHeatpathMeshFilter : public vtkPolyDataAlgorithm
 {
@@ -47,12 +49,10 @@ protected:
   int FillInputPortInformation(int port, vtkInformation* info) override;
 
   // The options, with this filter's progress.
-  hp_mesh_options Options();
-  // Prepares distances on the surface; NULL and an error if that cannot be. To be freed with
-  // hp_mesh_solver_free().
-  hp_mesh_solver* Prepare(vtkPolyData* surface, const hp_mesh_options& options);
-  // What RequestData returns: 0 and an error, unless the user has only cancelled.
-  int Finish(int status);
+  heatpath::MeshOptions Options();
+  // Prepares distances on the surface; throws if that cannot be. What is computed then with Options()
+  // is the second half of the progress.
+  heatpath::MeshSolver Prepare(vtkPolyData* surface);
 
 private:
   vtkHeatpathMeshFilter(const vtkHeatpathMeshFilter&) = delete;

@@ -17,27 +17,15 @@ vtkHeatpathMeshPath::vtkHeatpathMeshPath()
 int vtkHeatpathMeshPath::RequestData(vtkInformation *, vtkInformationVector **inputs,
                                      vtkInformationVector *outputs)
 {
-    hp_mesh_options options = this->Options();
-    options.shorten = this->Shorten;
-    hp_mesh_solver *solver = this->Prepare(vtkPolyData::GetData(inputs[0]), options);
-    if (!solver)
-        return this->GetAbortExecute();
-    const auto places = pointsOf(vtkDataSet::GetData(inputs[1]));
-    const auto endPlaces = pointsOf(vtkDataSet::GetData(inputs[2]));
-    const heatpath::Array positions(places.data(), places.size() / 3);
-    const heatpath::Array endPositions(endPlaces.data(), endPlaces.size() / 3);
-    hp_surface_points sources;
-    hp_surface_points_init(&sources, sizeof sources);
-    hp_surface_points ends = sources;
-    sources.positions = &positions;
-    ends.positions = &endPositions;
-    hp_paths *paths = nullptr;
-    hp_status status = hp_mesh_paths_create(solver, &sources, &ends, &options, &paths);
-    if (status == HP_OK) {
+    return callHeatpath(this, [&] {
+        const heatpath::MeshSolver solver = this->Prepare(vtkPolyData::GetData(inputs[0]));
+        const heatpath::Points<3> sources = pointsOf(vtkDataSet::GetData(inputs[1]));
+        const heatpath::Points<3> ends = pointsOf(vtkDataSet::GetData(inputs[2]));
+        heatpath::MeshOptions options = this->Options();
+        options.shorten = this->Shorten;
+        const auto paths = solver.paths(heatpath::SurfacePoints::positions(sources),
+                                        heatpath::SurfacePoints::positions(ends), options);
         const auto world = [](const double *point, double *place) { std::copy_n(point, 3, place); };
-        status = makeLines(paths, 3, world, vtkPolyData::GetData(outputs));
-    }
-    hp_paths_free(paths);
-    hp_mesh_solver_free(solver);
-    return this->Finish(status);
+        makeLines(paths, world, vtkPolyData::GetData(outputs));
+    });
 }

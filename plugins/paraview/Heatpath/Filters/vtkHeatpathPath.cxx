@@ -23,27 +23,21 @@ int vtkHeatpathPath::FillOutputPortInformation(int, vtkInformation *info)
 int vtkHeatpathPath::RequestData(vtkInformation *, vtkInformationVector **inputs,
                                  vtkInformationVector *outputs)
 {
-    auto *image = vtkImageData::GetData(inputs[0]);
-    hp_buffer buffer;
-    if (!this->Describe(image, buffer))
-        return 0;
-    const auto sources = this->ToPixels(image, vtkDataSet::GetData(inputs[1]));
-    const auto ends = this->ToPixels(image, vtkDataSet::GetData(inputs[2]));
-    const hp_options options = this->Options();
-    hp_paths *paths = nullptr;
-    hp_status status = hp_paths_create(&buffer, nullptr, sources.data(),
-                                       sources.size() / buffer.dimension, ends.data(),
-                                       ends.size() / buffer.dimension, &options, &paths);
-    if (status == HP_OK) {
+    return callHeatpath(this, [&] {
+        auto *image = vtkImageData::GetData(inputs[0]);
+        auto *sources = vtkDataSet::GetData(inputs[1]), *ends = vtkDataSet::GetData(inputs[2]);
+        auto *lines = vtkPolyData::GetData(outputs);
+        const heatpath::Buffer buffer = this->Describe(image);
         const auto world = [&](const double *point, double *place) {
             this->ToWorld(image, point, place);
         };
-        const int dimension = static_cast<int>(buffer.dimension);
-        status = makeLines(paths, dimension, world, vtkPolyData::GetData(outputs));
-    }
-    hp_paths_free(paths);
-    if (status == HP_OK || status == HP_CANCELLED)
-        return 1;
-    vtkErrorMacro(<< hp_last_error_message());
-    return 0;
+        if (buffer.dimension == 2)
+            makeLines(heatpath::paths<2>(buffer, this->ToPixels<2>(image, sources),
+                                         this->ToPixels<2>(image, ends), this->Options()),
+                      world, lines);
+        else
+            makeLines(heatpath::paths<3>(buffer, this->ToPixels<3>(image, sources),
+                                         this->ToPixels<3>(image, ends), this->Options()),
+                      world, lines);
+    });
 }
