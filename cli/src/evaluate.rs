@@ -4,6 +4,7 @@ use crate::args::EvaluateArgs;
 use crate::failure::Failure;
 use crate::input::{coordinates, size_text};
 use crate::output;
+use crate::place::Place;
 use heatpath_core::evaluation::{self, CurveSet, Evaluation, Score, Separation};
 use heatpath_core::grid::{Mask, Shape};
 use heatpath_io::scores::SCORE_ENDINGS;
@@ -44,18 +45,27 @@ fn evaluate_in<const D: usize>(
     truth: Given,
 ) -> Result<(), Failure> {
     let view = args.mask.as_ref().map(ImageFile::read).transpose()?;
-    let files = [truth.file(), extracted.file(), view.as_ref()];
-    let placed = files.into_iter().flatten().find(|file| file.placement().is_some());
+    let view_path = args.mask.as_deref().unwrap_or(Path::new(""));
+    let files = [
+        (args.truth.as_path(), truth.file()),
+        (args.extracted.as_path(), extracted.file()),
+        (view_path, view.as_ref()),
+    ];
+    let places: Vec<Place<'_, D>> =
+        files.into_iter().filter_map(|(path, file)| Place::of(path, file?)).collect();
     let spacing = match &args.spacing {
         Some(spacing) => coordinates("spacing", spacing)?,
-        None => placed.and_then(ImageFile::spacing).unwrap_or([1.0; D]),
+        None => places.first().map_or([1.0; D], |place| place.spacing),
     };
     Shape::with_spacing([1; D], spacing)?;
-    let place = (spacing, placed.and_then(ImageFile::placement));
+    let place = (spacing, places.first().map(|place| place.placement));
     let extracted = extracted.curves(&args.extracted, place)?;
     let truth = truth.curves(&args.truth, place)?;
     let view = view.map(|file| file.into_mask(spacing)).transpose()?;
-    check_sizes(args, &extracted, &truth, view.as_ref())?;
+    let size = check_sizes(args, &extracted, &truth, view.as_ref())?;
+    if let ([first, others @ ..], Some(size), None) = (&places[..], size, &args.spacing) {
+        others.iter().try_for_each(|other| first.check(other, size))?;
+    }
     let evaluation = evaluation::evaluate(&extracted, &truth, &args.tolerance, view.as_ref())?;
     if let Some(output) = &args.output {
         write_scores(output, args.format.as_deref(), args.force, &evaluation)?;
@@ -108,13 +118,13 @@ impl Given {
     }
 }
 
-/// Names the files whose sizes differ.
+/// The size of the masks, if there are any. Names the files whose sizes differ.
 fn check_sizes<const D: usize>(
     args: &EvaluateArgs,
     extracted: &CurveSet<D>,
     truth: &CurveSet<D>,
     view: Option<&Mask<D>>,
-) -> Result<(), Failure> {
+) -> Result<Option<[usize; D]>, Failure> {
     let files = [
         (Some(&args.extracted), extracted.size()),
         (Some(&args.truth), truth.size()),
@@ -129,7 +139,7 @@ fn check_sizes<const D: usize>(
             one.display(),
             size_text(size),
         ))),
-        _ => Ok(()),
+        _ => Ok(sized.first().map(|&(_, size)| size)),
     }
 }
 

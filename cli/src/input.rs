@@ -5,6 +5,7 @@ use crate::args::{
     OptionalSourceArgs, PictureArgs, PolarityArg,
 };
 use crate::failure::Failure;
+use crate::place::Place;
 use heatpath_core::Exec;
 use heatpath_core::grid::filter::{DEVIATION, Polarity, Tubes, even_grey};
 use heatpath_core::grid::medium::{
@@ -121,30 +122,11 @@ impl<'a, const D: usize> Picture<'a, D> {
 
     /// Refuses a second file that says that it lies elsewhere. It says nothing if --spacing does.
     fn check_place(&self, path: &Path, file: &ImageFile) -> Result<(), Failure> {
-        let theirs = file.placement().zip(file.spacing::<D>());
-        let (Some(ours), Some((theirs, spacing)), None) =
-            (self.placement, theirs, &self.args.spacing)
-        else {
-            return Ok(());
-        };
+        let theirs = Place::of(path, file).filter(|_| self.args.spacing.is_none());
+        let (Some(placement), Some(theirs)) = (self.placement, theirs) else { return Ok(()) };
         let shape = self.image.shape();
-        let gap = |corner: usize| {
-            let last = |axis: usize| (shape.size()[axis] - 1) as f64;
-            let point = std::array::from_fn(|axis| (corner >> axis & 1) as f64 * last(axis));
-            let (here, there) =
-                (ours.to_world(point, shape.spacing()), theirs.to_world(point, spacing));
-            here.iter().zip(there).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-        };
-        let gap = (0..1 << D).map(gap).fold(0.0, f64::max);
-        if gap <= shape.smallest_spacing() {
-            return Ok(());
-        }
-        Err(Failure::bad_input(format!(
-            "{}: lies elsewhere: one of its corners is {gap:.3} away from that of {}; --spacing \
-             makes this file's place count for nothing",
-            path.display(),
-            self.args.input.display()
-        )))
+        let ours = Place { file: &self.args.input, spacing: shape.spacing(), placement };
+        ours.check(&theirs, shape.size())
     }
 
     /// The sources, of which there may be none.

@@ -22,6 +22,7 @@ mod medium;
 mod mesh;
 mod output;
 mod path;
+mod place;
 mod run;
 mod solve;
 mod structure;

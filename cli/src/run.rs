@@ -42,7 +42,7 @@ pub(crate) fn run<T>(
     (threads, quiet): (usize, bool),
     compute: impl FnOnce(&Exec) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
-    let bar = progress_bar(work, quiet);
+    let bar = progress_bar((1000, "{percent:>3} %"), work, quiet);
     // Without a handler an interruption ends the process at once, which leaves no partial file
     // either: outputs are renamed when complete. A second handler is refused, and not needed.
     if !GUEST.load(Ordering::Relaxed) {
@@ -60,11 +60,16 @@ pub(crate) fn run<T>(
     computed
 }
 
-/// A bar on standard error; indicatif shows it on terminals only.
-fn progress_bar(work: &'static str, quiet: bool) -> ProgressBar {
+/// A bar on standard error, up to a number that is shown in this form; indicatif shows it on terminals
+/// only.
+pub(crate) fn progress_bar(
+    (end, form): (u64, &str),
+    work: &'static str,
+    quiet: bool,
+) -> ProgressBar {
     let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style =
-        ProgressStyle::with_template("{prefix} [{bar:40}] {percent:>3} % {elapsed} (left: {eta})");
+    let style = format!("{{prefix}} [{{bar:40}}] {form} {{elapsed}} (left: {{eta}})");
+    let style = ProgressStyle::with_template(&style);
     let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ");
-    ProgressBar::with_draw_target(Some(1000), target).with_style(style).with_prefix(work)
+    ProgressBar::with_draw_target(Some(end), target).with_style(style).with_prefix(work)
 }

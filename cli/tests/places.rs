@@ -142,6 +142,15 @@ fn masks_media_and_truths_must_lie_where_the_volume_does() {
     };
     let [swc, json] = [scores("p.swc"), scores("p.json")].map(|s| s["precision"].as_f64().unwrap());
     assert!(swc > 0.0 && (swc - json).abs() < 1e-9, "{swc} {json}");
+    // Masks that say that they lie apart.
+    let moved = FieldStyle { placement: Some(moved), ..FieldStyle::default() };
+    write_field(bench.path("moved.nrrd"), None, false, &line, &moved).unwrap();
+    let evaluate = "evaluate --truth line.nrrd --tolerance 2 --extracted";
+    let words = ["moved.nrrd", "lies elsewhere", "1.000 away", "line.nrrd"];
+    bench.fails(&format!("{evaluate} moved.nrrd"), 3, &words);
+    bench.fails(&format!("{evaluate} p.json --mask moved.nrrd"), 3, &words);
+    bench.ok(&format!("{evaluate} moved.nrrd --spacing 0.5,0.8,2"));
+    bench.ok(&format!("{evaluate} line.nrrd --mask line.nrrd"));
 }
 
 #[test]

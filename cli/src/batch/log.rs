@@ -23,6 +23,16 @@ pub(super) enum Status {
     Failed,
 }
 
+impl Status {
+    /// Its name in the log, the summary and the report.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Failed => "failed",
+        }
+    }
+}
+
 /// A line of the log.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Record {

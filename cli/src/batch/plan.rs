@@ -131,42 +131,45 @@ impl Plan {
         if let Some(report) = &self.report {
             check_output(report, None, overwrite, &["html", "htm"])?;
         }
-        let own =
+        let files_of_batch =
             [Some(&self.manifest), Some(&self.log), Some(&self.summary), self.report.as_ref()];
-        let mut writers: HashMap<PathBuf, String> = HashMap::new();
-        for file in own.into_iter().flatten() {
-            if writers.insert(unique(file), "the batch itself".to_owned()).is_some() {
+        let mut writers: HashMap<PathBuf, &str> = HashMap::new();
+        for file in files_of_batch.into_iter().flatten() {
+            if writers.insert(unique(file), BATCH).is_some() {
                 let file = file.display();
                 return Err(Failure::usage(format!(
                     "{file}: the batch needs it for something else"
                 )));
             }
         }
-        let full = |path: &Path| unique(&self.folder.join(path));
-        for row in &self.rows {
+        let names: Vec<String> =
+            self.rows.iter().map(|row| format!("row {}", row.number)).collect();
+        for (row, name) in self.rows.iter().zip(&names) {
             for output in &row.outputs {
-                let owner = format!("row {}", row.number);
-                if let Some(other) = writers.insert(full(output), owner) {
+                if let Some(other) = writers.insert(self.unique_in_folder(output), name) {
                     let output = output.display();
                     return Err(self.bad(row, &format!("{output} is used by {other} as well")));
                 }
             }
         }
-        for row in &self.rows {
-            for input in &row.inputs {
-                let writer = writers.get(&full(input)).filter(|writer| writer.starts_with("row"));
-                if let Some(writer) = writer {
-                    let input = input.display();
-                    return Err(self.bad(
-                        row,
-                        &format!(
-                            "reads {input}, which {writer} writes; rows do not wait for one another"
-                        ),
-                    ));
-                }
-            }
-        }
-        Ok(())
+        self.rows.iter().try_for_each(|row| self.check_inputs(row, &writers))
+    }
+
+    /// Refuses a row that reads what another one writes.
+    fn check_inputs(&self, row: &Row, writers: &HashMap<PathBuf, &str>) -> Result<(), Failure> {
+        let writer = |input: &PathBuf| writers.get(&self.unique_in_folder(input)).copied();
+        let of_rows = |input| Some((input, writer(input).filter(|writer| *writer != BATCH)?));
+        let Some((input, writer)) = row.inputs.iter().find_map(of_rows) else { return Ok(()) };
+        let input = input.display();
+        Err(self.bad(
+            row,
+            &format!("reads {input}, which {writer} writes; rows do not wait for one another"),
+        ))
+    }
+
+    /// The one path of a file that a row names.
+    fn unique_in_folder(&self, file: &Path) -> PathBuf {
+        unique(&self.folder.join(file))
     }
 
     fn about(&self, row: &Row, what: &str) -> String {
@@ -177,6 +180,9 @@ impl Plan {
         Failure::bad_input(self.about(row, what))
     }
 }
+
+/// Who writes the files of the batch itself, in messages.
+const BATCH: &str = "the batch itself";
 
 /// The rows of the manifest.
 fn rows(args: &BatchArgs) -> Result<Vec<Row>, Failure> {

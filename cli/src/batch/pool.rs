@@ -6,7 +6,8 @@ use super::log::{Log, Record, Status};
 use super::plan::Task;
 use super::row::Row;
 use crate::failure::Failure;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::run::progress_bar;
+use indicatif::ProgressBar;
 use serde_json::Value;
 use std::io;
 use std::path::PathBuf;
@@ -46,7 +47,8 @@ pub(super) fn run(
             std::process::exit(130);
         }
     }));
-    let bar = progress_bar(tasks.len(), quiet);
+    let bar = progress_bar((tasks.len() as u64, "{pos} of {len}"), "rows", quiet);
+    bar.enable_steady_tick(Duration::from_millis(500));
     let tasks = tasks.into_iter();
     let shared = Mutex::new(Shared { tasks, log, records: Vec::new(), broken: None });
     thread::scope(|scope| {
@@ -155,15 +157,4 @@ fn show(bar: &ProgressBar, record: &Record) {
         bar.println(format!("row {row} ({name}) failed: {message}"));
     }
     bar.inc(1);
-}
-
-/// A bar on standard error; indicatif shows it on terminals only.
-fn progress_bar(rows: usize, quiet: bool) -> ProgressBar {
-    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let style = "rows [{bar:40}] {pos} of {len} {elapsed} (left: {eta})";
-    let style = ProgressStyle::with_template(style);
-    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> ");
-    let bar = ProgressBar::with_draw_target(Some(rows as u64), target).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(500));
-    bar
 }

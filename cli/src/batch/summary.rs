@@ -1,6 +1,6 @@
 //! All rows as a table.
 
-use super::log::{Record, Status};
+use super::log::Record;
 use crate::failure::Failure;
 use heatpath_io::write_atomically;
 use serde_json::Value;
@@ -51,10 +51,7 @@ fn cells(record: &Record) -> [String; 11] {
         record.row.to_string(),
         record.name.clone(),
         record.command.clone(),
-        match record.status {
-            Status::Done => "done".to_owned(),
-            Status::Failed => "failed".to_owned(),
-        },
+        record.status.name().to_owned(),
         record.exit_code.map(|code| code.to_string()).unwrap_or_default(),
         format!("{:.3}", record.seconds),
         file(record.inputs.first().map(|input| input.path.as_path())),

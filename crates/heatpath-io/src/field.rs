@@ -130,15 +130,15 @@ pub fn write_mask<const D: usize>(
     mask: &Grid<bool, D>,
     placement: Option<Placement>,
 ) -> Result<(), WriteError> {
-    let kind = FieldFormat::new(&path, format)?;
-    if kind.is_placed() {
+    let format_of_file = FieldFormat::new(&path, format)?;
+    if format_of_file.is_placed() {
         let bytes: Vec<u8> =
             mask.values().iter().map(|&is_in| if is_in { 255 } else { 0 }).collect();
         let volume = Volume::new(mask.shape(), placement, Numbers::U8(&bytes));
-        return volume.write(path.as_ref(), kind, overwrite);
+        return volume.write(path.as_ref(), format_of_file, overwrite);
     }
     let values = mask.map(|&is_inside| if is_inside { 255.0 } else { 0.0 });
-    match (kind, as_picture(&values)) {
+    match (format_of_file, as_picture(&values)) {
         (FieldFormat::Png, Some(values)) => write_atomically(&path, overwrite, |out| {
             let size = values.shape().size();
             check_picture_size(size)?;

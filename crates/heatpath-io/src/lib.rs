@@ -92,7 +92,7 @@ pub use overlay::{Overlay, write_overlay};
 pub use picture::{
     Channel, ImageFile, PictureOptions, read_field, read_mask, read_picture, read_tensors,
 };
-pub use placement::Placement;
+pub use placement::{Placement, gap_between};
 pub use points::{read_points, read_points_from_bytes};
 pub use polylines::CurveFile;
 pub use sample::SampleType;

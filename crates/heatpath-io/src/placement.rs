@@ -170,3 +170,20 @@ pub(crate) fn dot(a: Vector, b: Vector) -> f64 {
 pub(crate) fn cross(a: Vector, b: Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
+
+/// How far two grids of one `size` lie apart, each with its spacing and placement: the largest distance
+/// between corners of the same index, in units of the world.
+#[must_use]
+pub fn gap_between<const D: usize>(
+    size: [usize; D],
+    one: ([f64; D], Placement),
+    other: ([f64; D], Placement),
+) -> f64 {
+    let gap = |corner: usize| {
+        let last = |axis: usize| (size[axis] - 1) as f64;
+        let point = std::array::from_fn(|axis| (corner >> axis & 1) as f64 * last(axis));
+        let [here, there] = [one, other].map(|(spacing, place)| place.to_world(point, spacing));
+        length(std::array::from_fn(|axis| here[axis] - there[axis]))
+    };
+    (0..1 << D).map(gap).fold(0.0, f64::max)
+}

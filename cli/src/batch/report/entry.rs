@@ -1,7 +1,7 @@
 //! What the page shows of a row.
 
 use crate::batch::files::Stamp;
-use crate::batch::log::{Record, Status};
+use crate::batch::log::Record;
 use crate::batch::summary::{SCORES, lengths, score};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -68,10 +68,7 @@ impl Entry {
             row: record.row,
             name: record.name.clone(),
             command: record.command.clone(),
-            status: match record.status {
-                Status::Done => "done",
-                Status::Failed => "failed",
-            },
+            status: record.status.name(),
             seconds: format!("{:.2}", record.seconds),
             curves: lengths.as_ref().map(|lengths| lengths.len().to_string()).unwrap_or_default(),
             length: lengths.map(|lengths| number(lengths.iter().sum())).unwrap_or_default(),
