@@ -197,10 +197,10 @@ int main(void)
     labelled(HP_EIKONAL, 0);
     labels_behind_walls();
     volumes();
-    matrices(HP_NORMALIZED, HP_SOLVER_EXPLICIT, 5);
-    matrices(HP_NORMALIZED, HP_SOLVER_IMPLICIT, 5);
+    matrices(HP_NORMALIZED, HP_SOLVER_EXPLICIT, 2.5);
+    matrices(HP_NORMALIZED, HP_SOLVER_IMPLICIT, 2.5);
     matrices(HP_EIKONAL, 0, 0.01);
-    matrices(HP_HEAT_METHOD, 0, 0.01);
+    matrices(HP_HEAT_METHOD, 0, 0.1);
     bridges();
     wrong_bridges();
     wrong_labels();

@@ -115,6 +115,14 @@ static void refuse_solver(int line, const hp_mesh_options *options, hp_status st
         refuse_solver(__LINE__, &options, (status), (words));                                      \
     } while (0)
 
+#define REFUSE_EXPLICIT(field, value, status, words)                                               \
+    do {                                                                                           \
+        hp_mesh_options options = mesh_defaults();                                                 \
+        options.method = HP_MESH_EXPLICIT;                                                         \
+        options.field = (value);                                                                   \
+        refuse_solver(__LINE__, &options, (status), (words));                                      \
+    } while (0)
+
 #define REFUSE_MEDIUM(kind, field, value, status, words)                                           \
     do {                                                                                           \
         hp_mesh_options options = mesh_defaults();                                                 \
@@ -139,7 +147,7 @@ static void wrong_solvers(void)
     hp_mesh_solver_free(NULL);
     REFUSE_SOLVER(medium, 0, HP_INVALID_ARGUMENT, "medium is 0");
     REFUSE_SOLVER(medium, 8, HP_INVALID_ARGUMENT, "medium is 8");
-    REFUSE_SOLVER(method, 4, HP_INVALID_ARGUMENT, "method is 4");
+    REFUSE_SOLVER(method, 5, HP_INVALID_ARGUMENT, "method is 5");
     REFUSE_SOLVER(threads, 1025, HP_INVALID_ARGUMENT, "threads is 1025");
     REFUSE_SOLVER(curvature, 2, HP_INVALID_ARGUMENT, "curvature is 2");
     REFUSE_SOLVER(farthest, -1, HP_INVALID_ARGUMENT, "farthest is -1");
@@ -147,6 +155,10 @@ static void wrong_solvers(void)
     REFUSE_SOLVER(time, -1, HP_INVALID_ARGUMENT, "time is -1");
     REFUSE_SOLVER(time, INFINITY, HP_INVALID_ARGUMENT, "time is inf");
     REFUSE_SOLVER(memory, 1, HP_OUT_OF_MEMORY, "of memory");
+    REFUSE_EXPLICIT(step, 3, HP_UNSTABLE_STEP, "stable only up to");
+    REFUSE_EXPLICIT(step, -1, HP_INVALID_ARGUMENT, "time step is -1");
+    REFUSE_EXPLICIT(iterations, 1000000001, HP_INVALID_ARGUMENT, "number of iterations is");
+    REFUSE_EXPLICIT(iterations, UINT64_MAX, HP_INVALID_ARGUMENT, "number of iterations is");
     REFUSE_MEDIUM(HP_MESH_SPEED_SQ, values, NULL, HP_INVALID_ARGUMENT, "values is NULL");
     REFUSE_MEDIUM(HP_MESH_METRIC, values, NULL, HP_INVALID_ARGUMENT, "values is NULL");
     REFUSE_MEDIUM(HP_MESH_SPEED_SQ, method, HP_MESH_HEAT, HP_INVALID_IMAGE, "squared speed is 0 at vertex 9");
@@ -353,7 +365,7 @@ static void apart(void)
     hp_mesh_options options = mesh_defaults();
     hp_mesh *pair = mesh_of(&vertices, &triangles, NULL, NULL);
     uint32_t method;
-    for (method = HP_MESH_AUTO; method <= HP_MESH_EXACT; method++) {
+    for (method = HP_MESH_AUTO; method <= HP_MESH_EXPLICIT; method++) {
         static const double farthest[2] = {0, 0.5};
         int i;
         for (i = 0; i < 2; i++) {
@@ -382,6 +394,27 @@ static void apart(void)
         }
     }
     hp_mesh_free(pair);
+}
+
+/* Heat begins everywhere at once. */
+static void explicit_heat_has_no_offsets(void)
+{
+    const uint32_t vertex = 3;
+    const double later = 0.5;
+    const hp_array number = array_of(&vertex, HP_U32, 1), offset = array_of(&later, HP_F64, 1);
+    const hp_array result = array_of(values, HP_F64, VERTICES);
+    hp_surface_points sources = at_vertices(&number);
+    hp_mesh_options options = mesh_defaults();
+    hp_mesh_solver *own;
+    options.method = HP_MESH_EXPLICIT;
+    options.step = 0;
+    options.iterations = 40;
+    own = solver_of(mesh, &options);
+    EXPECT(HP_OK, "", hp_mesh_solver_distances(own, &sources, NULL, &result, 0, NULL, 0));
+    sources.offsets = &offset;
+    EXPECT(HP_INVALID_ARGUMENT, "source offset is 0.5; it must be 0",
+           hp_mesh_solver_distances(own, &sources, NULL, &result, 0, NULL, 0));
+    hp_mesh_solver_free(own);
 }
 
 struct watcher {
@@ -475,6 +508,7 @@ int main(void)
     wrong_meshes();
     mesh = made = sphere();
     wrong_solvers();
+    explicit_heat_has_no_offsets();
     {
         hp_mesh_options options = mesh_defaults();
         options.method = HP_MESH_HEAT;

@@ -161,6 +161,29 @@ static void answer(hp_status status)
     }
 }
 
+static void use_solver(const hp_solver *solver, const double *points, const hp_options *options,
+                       const hp_buffer *target, const hp_buffer *other)
+{
+    const double *end = points + 3;
+    double distance;
+    hp_paths *paths;
+    hp_array row;
+    hp_buffer labels = *other;
+    hp_array_init(&row, sizeof row);
+    row.type = (uint32_t)usual_or_wild(HP_F64);
+    row.count = usual_or_wild(1);
+    row.data = &distance;
+    if (labels.type == HP_U8)
+        labels.type = HP_I32;
+    answer(hp_solver_distances(solver, points, 1, options, target, 0));
+    answer(hp_solver_nearest(solver, points, 1, options, target, &labels, NULL, 0));
+    answer(hp_solver_nearest(solver, points, 1, options, NULL, NULL, target, 0));
+    answer(hp_solver_matrix(solver, points, 1, end, 1, options, &row, 0));
+    answer(hp_solver_bridge(solver, points, 1, end, 1, options, target));
+    answer(hp_solver_paths_create(solver, points, 1, end, 1, options, &paths));
+    hp_paths_free(paths);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -208,11 +231,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             break;
         default:
             answer(hp_solver_create(&image, walls, how, &solver));
-            if (solver) {
-                answer(hp_solver_distances(solver, points, 1, how, &first, 0));
-                answer(hp_solver_paths_create(solver, points, 1, points + 3, 1, how, &paths));
-                hp_paths_free(paths);
-            }
+            if (solver)
+                use_solver(solver, points, how, &first, &second);
             hp_solver_free(solver);
         }
     }

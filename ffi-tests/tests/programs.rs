@@ -124,7 +124,9 @@ fn every_call_that_reports_progress_is_watched() {
         .split("hp_status ")
         .filter_map(|call| call.split(';').next()?.split_once('('))
         .filter(|(name, arguments)| {
-            arguments.contains("_options *options") && !name.ends_with("_init")
+            name.starts_with("hp_")
+                && arguments.contains("_options *options")
+                && !name.ends_with("_init")
         })
         .map(|(name, _)| name)
         .collect();

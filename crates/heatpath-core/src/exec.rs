@@ -173,3 +173,39 @@ impl Drop for Threads {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_parts_are_parts() {
+        let told = Mutex::new(Vec::new());
+        let exec = Exec::single_threaded().with_watch(|finished| {
+            told.lock().unwrap().push(finished);
+            if finished < 0.7 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        let half = exec.part(0.5, 1.0);
+        assert_eq!(exec.report(0.25), Ok(()));
+        assert_eq!(half.report(0.0), Ok(()));
+        assert_eq!(half.part(0.0, 0.5).report(0.5), Ok(()));
+        assert_eq!(half.part(0.5, 1.0).report(0.5), Err(Cancelled));
+        assert_eq!(*told.lock().unwrap(), [0.25, 0.5, 0.625, 0.875]);
+    }
+
+    #[test]
+    fn parts_run_on_the_same_threads() {
+        let exec = Exec::new(3).unwrap();
+        let names = |exec: &Exec| {
+            let mut items = [(); 64].map(|()| None);
+            exec.for_each(&mut items, |item| *item = Some(thread::current().id()));
+            items.into_iter().flatten().collect::<std::collections::HashSet<_>>()
+        };
+        let part = exec.part(0.0, 0.5);
+        assert_eq!(part.threads(), 3);
+        let all: std::collections::HashSet<_> =
+            names(&exec).union(&names(&part)).copied().collect();
+        assert!(all.len() <= 3, "{all:?}");
+        assert!(!all.contains(&thread::current().id()));
+    }
+}

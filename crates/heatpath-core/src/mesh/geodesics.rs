@@ -2,7 +2,7 @@
 
 use super::distance::{
     DistanceMap, Eikonal, EikonalError, EikonalOptions, Exact, ExactError, ExactOptions,
-    HeatMethod, HeatMethodError, HeatMethodOptions, Of, VaradhanOptions, varadhan,
+    HeatMethod, HeatMethodError, HeatMethodOptions, NOT_REACHED, Of, VaradhanOptions, varadhan,
 };
 use super::heat::{Explicit, Heat, HeatError, HeatOptions};
 use super::path::{Descent, Ending, Path, ValuesError};
@@ -31,7 +31,7 @@ pub enum Method {
     /// Windows of straight paths: exact to rounding, for one slowness everywhere.
     Exact,
     /// The explicit heat of the paper, eqs. (15), (16) and (3), as [`varadhan`] reads it: right where
-    /// all edges are about equally long, and to compare with.
+    /// all edges are about equally long, and to compare with. Sources must have no offsets.
     Explicit,
 }
 
@@ -189,10 +189,7 @@ impl Geodesics {
         sets: &[Sources],
         exec: &Exec,
     ) -> Result<Vec<DistanceMap>, GeodesicsError> {
-        for sources in sets {
-            let points = sources.list().iter().map(|source| source.point);
-            self.medium.mesh().check_points("source", points)?;
-        }
+        sets.iter().try_for_each(|sources| self.check_sources(sources))?;
         match &self.solver {
             Solver::Heat(method) => {
                 let mut maps = method.distances(sets, exec)?;
@@ -219,6 +216,11 @@ impl Geodesics {
         }
     }
 
+    fn check_sources(&self, sources: &Sources) -> Result<(), PointError> {
+        let points = sources.list().iter().map(|source| source.point);
+        self.medium.mesh().check_points("source", points)
+    }
+
     /// The distances of explicit heat.
     fn read(&self, heat: &Heat) -> DistanceMap {
         let mut map = varadhan(heat, VaradhanOptions::default());
@@ -239,6 +241,7 @@ impl Geodesics {
         ends: &[SurfacePoint],
         exec: &Exec,
     ) -> Result<(DistanceMap, Vec<Path>), GeodesicsError> {
+        self.check_sources(sources)?;
         self.medium.mesh().check_points("end", ends.iter().copied())?;
         let map = match &self.solver {
             Solver::Exact(exact, instead) => {
@@ -278,9 +281,10 @@ impl Geodesics {
         let exposure = VaradhanOptions { of: Of::Exposure, ..VaradhanOptions::default() };
         let slope = varadhan(heat, exposure);
         let descent = Descent::new(&self.medium, slope.values(), sources)?;
-        let path = |&end: &SurfacePoint| {
-            let distance = map.at(self.medium.mesh(), &end);
-            Ok(Path { distance, ..descent.path(end)? })
+        let mesh = self.medium.mesh();
+        let path = |&end: &SurfacePoint| match map.at(mesh, &end) {
+            NOT_REACHED => Ok(Path::new(mesh, vec![end], Ending::Unreachable, NOT_REACHED)),
+            distance => Ok(Path { distance, ..descent.path(end)? }),
         };
         let paths = ends.iter().map(path).collect::<Result<_, GeodesicsError>>()?;
         Ok((map, paths))
