@@ -634,6 +634,12 @@ typedef struct hp_path_info {
   double physical_length;
   /** The distance of the end point from the sources, infinite if the path reaches none. */
   double distance;
+  /**
+   * The length of the path in the metric of the medium: its distance, if it is a shortest path. Well
+   * above the distance, say 1.5 times, heat took a short cut in a medium of strong contrast, and
+   * HP_EIKONAL finds the shortest path. Not a number (NAN) on meshes.
+   */
+  double cost;
 } hp_path_info;
 
 /**

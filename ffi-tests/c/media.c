@@ -116,6 +116,7 @@ static void the_heat_method_gives_lengths(void)
     EXPECT(HP_OK, "", hp_paths_info(paths, 0, &info));
     CHECK(info.ending == HP_ENDED_SOURCE);
     CHECK(fabs(info.length - hypot(end[0] - source[0], end[1] - source[1])) < 0.2);
+    CHECK(fabs(info.cost - info.length) < 1e-9);
     hp_paths_free(paths);
     hp_solver_free(solver);
     options.medium = HP_MEDIUM_TENSOR;

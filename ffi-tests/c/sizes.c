@@ -28,6 +28,7 @@ int main(void)
     SIZE(hp_path_info);
     AT(hp_path_info, source);
     AT(hp_path_info, distance);
+    AT(hp_path_info, cost);
     SIZE(hp_array);
     AT(hp_array, data);
     AT(hp_array, count);

@@ -40,7 +40,7 @@ fn c_and_rust_agree_on_structs() {
             $with! {
                 hp_buffer: data spacing;
                 hp_options: smoothing estimator user solver reference memory farthest tensor tensor_count directions scales margin;
-                hp_path_info: source distance;
+                hp_path_info: source distance cost;
                 hp_array: data count byte_stride;
                 hp_mesh_options: user weld medium values time farthest curvature bend floor reference iterations step;
                 hp_mesh_report: vertices welded euler_characteristic;

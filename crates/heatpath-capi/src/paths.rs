@@ -67,6 +67,10 @@ pub struct hp_path_info {
     pub physical_length: f64,
     /// The distance of the end point from the sources, infinite if the path reaches none.
     pub distance: f64,
+    /// The length of the path in the metric of the medium: its distance, if it is a shortest path. Well
+    /// above the distance, say 1.5 times, heat took a short cut in a medium of strong contrast, and
+    /// HP_EIKONAL finds the shortest path. Not a number (NAN) on meshes.
+    pub cost: f64,
 }
 
 // SAFETY: integers and floats, 8-byte numbers at the end.
@@ -83,6 +87,7 @@ unsafe impl Versioned for hp_path_info {
             length: 0.0,
             physical_length: 0.0,
             distance: f64::INFINITY,
+            cost: f64::NAN,
         }
     }
 }
@@ -218,6 +223,7 @@ impl Traced {
             length: path.length,
             physical_length: path.physical_length,
             distance: path.distance,
+            cost: path.cost,
             ..hp_path_info::defaults()
         };
         Self { info, coordinates: path.points.as_flattened().to_vec(), places: Vec::new() }
