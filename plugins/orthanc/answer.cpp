@@ -39,6 +39,7 @@ ordered_json path_json(const hp_paths *paths, std::uint64_t index)
     path["source"] = info.source < 0 ? ordered_json() : ordered_json(info.source);
     path["end"] = points.front();
     path["distance"] = std::isfinite(info.distance) ? ordered_json(info.distance) : ordered_json();
+    path["cost"] = info.cost;
     return path;
 }
 

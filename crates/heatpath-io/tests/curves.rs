@@ -56,12 +56,13 @@ fn json_has_the_documented_layout() {
     assert!(text.ends_with('\n'));
     let first = json!({
         "points": [[3.0, 4.0], [0.1, 1.0 / 3.0], [0.0, 0.0]], "length": 5.0,
-        "physical_length": 10.0, "ended": "source", "source": 1, "end": [3.0, 4.0], "distance": 7.5
+        "physical_length": 10.0, "ended": "source", "source": 1, "end": [3.0, 4.0], "distance": 7.5,
+        "cost": 7.5
     });
     assert_eq!(value["paths"][0], first);
     let second = json!({
         "points": [[9.0, -0.5]], "length": 5.0, "physical_length": 10.0, "ended": "unreachable",
-        "source": null, "end": [9.0, -0.5], "distance": null
+        "source": null, "end": [9.0, -0.5], "distance": null, "cost": null
     });
     assert_eq!(value["paths"][1], second);
     assert_eq!(value["paths"][2]["ended"], "not_reached");

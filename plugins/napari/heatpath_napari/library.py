@@ -48,6 +48,7 @@ class Path(NamedTuple):
     length: float  # in pixels
     physical_length: float
     distance: float  # of the end from the sources
+    cost: float  # the length in the metric of the medium: the distance, of a shortest path
 
 
 def _struct(declarations):
@@ -72,7 +73,7 @@ _Options = _struct(
     "f64 elongation, normalize, margin"
 )
 _PathInfo = _struct(
-    "u32 struct_size, ending; i64 source; u64 point_count; f64 length, physical_length, distance"
+    "u32 struct_size, ending; i64 source; u64 point_count; f64 length, physical_length, distance, cost"
 )
 _Progress = ctypes.CFUNCTYPE(ctypes.c_int, c_double, c_void_p)
 
@@ -177,5 +178,5 @@ def _path(handle, index, dimension):
     points = np.empty((info.point_count, dimension))
     place = points.ctypes.data_as(c_void_p)
     _check(_library().hp_paths_points(handle, c_uint64(index), place, c_uint64(info.point_count)))
-    reaches = info.ending == ENDED_SOURCE
-    return Path(points[:, ::-1], reaches, info.length, info.physical_length, info.distance)
+    lengths = info.length, info.physical_length, info.distance, info.cost
+    return Path(points[:, ::-1], info.ending == ENDED_SOURCE, *lengths)
