@@ -6,6 +6,8 @@ mod common;
 use common::Bench;
 use serde_json::{Value, json};
 use std::fs;
+use std::thread;
+use std::time::Duration;
 
 /// Columns, rows, slices: different ones, so that mixed up axes show.
 const SIZE: [usize; 3] = [24, 20, 16];
@@ -305,4 +307,49 @@ fn thin_volumes_are_volumes() {
     bench.write_npy("one.npy", &[1, 1, 1], |_| 1.0);
     bench.ok("distance one.npy --medium uniform --source 0,0,0 -o one_d.npy");
     assert_eq!(bench.npy("one_d.npy"), (vec![1, 1, 1], vec![0.0]));
+}
+
+/// The most bytes of memory that the command has taken at a time.
+#[cfg(target_os = "linux")]
+fn most_memory(bench: &Bench, arguments: &str) -> f64 {
+    let mut running = bench.command(arguments).spawn().unwrap();
+    let status = format!("/proc/{}/status", running.id());
+    let mut most = 0.0;
+    while running.try_wait().unwrap().is_none() {
+        let text = fs::read_to_string(&status).unwrap_or_default();
+        let peak = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let kilobytes = peak.and_then(|peak| peak.trim().strip_suffix(" kB"));
+        most = kilobytes.map_or(most, |kilobytes| 1024.0 * kilobytes.parse::<f64>().unwrap());
+        thread::sleep(Duration::from_millis(1));
+    }
+    assert!(running.wait().unwrap().success(), "heatpath {arguments}");
+    most
+}
+
+/// As docs/volumes.md says.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_path_takes_so_much_memory_a_voxel() {
+    const SIDE: usize = 160;
+    let bench = Bench::new();
+    let header = format!(
+        "ObjectType = Image\nNDims = 3\nDimSize = {SIDE} {SIDE} {SIDE}\n\
+         ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
+    );
+    let grey = |i: usize| (128.0 + 90.0 * (0.003 * i as f64).sin()) as u8;
+    let values = (0..SIDE.pow(3)).map(grey);
+    fs::write(
+        bench.path("v.mha"),
+        header.into_bytes().into_iter().chain(values).collect::<Vec<_>>(),
+    )
+    .unwrap();
+    let base = most_memory(&bench, "path --help");
+    for (method, stated) in [("--estimator eikonal", 45.0), ("--iterations 450", 80.0)] {
+        let path =
+            "path v.mha --source 10,10,10 --end 150,150,150 --threads 2 --quiet --force -o p.json";
+        let taken = most_memory(&bench, &format!("{path} {method}")) - base;
+        let bytes = taken / SIDE.pow(3) as f64;
+        println!("{method}: {bytes:.1} bytes a voxel");
+        assert!(bytes > 20.0 && bytes < 1.1 * stated, "{method}: {bytes} bytes a voxel");
+    }
 }

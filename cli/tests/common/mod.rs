@@ -37,12 +37,14 @@ impl Bench {
         self.folder.path().join(name)
     }
 
+    pub(crate) fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_heatpath"));
+        command.current_dir(self.folder.path()).args(arguments.split_whitespace());
+        command
+    }
+
     pub(crate) fn run(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_heatpath"))
-            .current_dir(self.folder.path())
-            .args(arguments.split_whitespace())
-            .output()
-            .unwrap()
+        self.command(arguments).output().unwrap()
     }
 
     /// Runs what must succeed; returns standard output.

@@ -69,10 +69,13 @@ impl<const D: usize> Tiling<D> {
         })
     }
 
-    /// The same tiles, no larger than a grid needs: small pictures take little memory.
+    /// As many tiles, none larger than a grid needs: they hold memory for all of their cells.
     fn within(self, shape: &Shape<D>) -> Self {
-        let needed = shape.size().map(|side| side.next_multiple_of(SHORTEST_EDGE));
-        Self { edge: std::array::from_fn(|axis| self.edge[axis].min(needed[axis])), ..self }
+        let needed = |axis: usize| {
+            let side = shape.size()[axis];
+            side.div_ceil(side.div_ceil(self.edge[axis])).next_multiple_of(SHORTEST_EDGE)
+        };
+        Self { edge: std::array::from_fn(needed), ..self }
     }
 
     /// The most steps that heat takes from any cell of a window to any other, if there are no walls.
