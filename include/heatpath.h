@@ -78,7 +78,7 @@
  */
 #define HP_INVALID_MESH 12
 
-/** There is nothing to find: the image shows no structure. */
+/** There is nothing to find: the image shows no structure, or no heat from one end reaches the other. */
 #define HP_NO_ANSWER 13
 
 /** Pixels are uint8_t. */
@@ -403,8 +403,9 @@ typedef struct hp_mesh_solver hp_mesh_solver;
 /**
  * Paths, one for each end point, in the order of the end points; or isolines and loops.
  *
- * Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by hp_paths_free(). It does not change, so any number of
- * threads may use it at once, and any thread may free it once the others are done.
+ * Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by
+ * hp_paths_free(). It does not change, so any number of threads may use it at once, and any thread may
+ * free it once the others are done.
  */
 typedef struct hp_paths hp_paths;
 
@@ -636,8 +637,9 @@ typedef struct hp_path_info {
   double distance;
   /**
    * The length of the path in the metric of the medium: its distance, if it is a shortest path. Well
-   * above the distance, say 1.5 times, heat took a short cut in a medium of strong contrast, and
-   * HP_EIKONAL finds the shortest path. Not a number (NAN) on meshes.
+   * above the distance, say 1.5 times, one of the two is wrong: heat took a short cut in a medium of
+   * strong contrast, or flowed so long that it filled the image. HP_EIKONAL finds both. Not a
+   * number (NAN) on meshes.
    */
   double cost;
 } hp_path_info;
@@ -658,8 +660,8 @@ typedef struct hp_array {
   uint32_t struct_size;
   /**
    * HP_U8 to HP_F64, HP_I64 or HP_U64, in the byte order of the machine. Numbers of vertices and
-   * faces can have any type of integers, coordinates and values any type; results are HP_F32 or
-   * HP_F64. There is no default.
+   * faces can have any type of integers, coordinates and values any type; results that are reals are
+   * HP_F32 or HP_F64, numbers of faces and labels integers of at least 32 bits. There is no default.
    */
   uint32_t type;
   /** The first item. */
@@ -1232,7 +1234,7 @@ hp_status hp_paths_points(const struct hp_paths *paths,
  *
  * options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
  * HP_MEDIUM_COMBINED need a reference, so NULL will not do. Of the estimator it counts whether it
- * is HP_EIKONAL: such a solver gives those distances only, and other solvers never do.
+ * is HP_EIKONAL, HP_HEAT_METHOD or another: a solver gives distances of its own kind only.
  *
  * solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
  * returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
@@ -1253,7 +1255,7 @@ hp_status hp_solver_create(const struct hp_buffer *image,
  * sources: source_count points, as for hp_distance().
  *
  * options: only estimator, threads, progress and user count here, and of a solver made with
- * HP_EIKONAL the estimator does not; the rest was fixed when the solver was made. NULL for the
+ * HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL for the
  * defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
  * depend on how many there are.
  *
@@ -1330,8 +1332,9 @@ void hp_solver_free(struct hp_solver *solver);
  * share_stride: the bytes from a map of shares to the next one, as map_stride of
  * hp_solver_distances().
  *
- * Labels are those of heat and of HP_EIKONAL, shares of heat alone; they take 25 bytes for each pixel
- * and source meanwhile. Nothing is written unless HP_OK is returned.
+ * Labels are those of heat and of HP_EIKONAL, shares of heat alone. With heat both are as HP_NORMALIZED
+ * sees them, whatever the estimator, and take 25 bytes for each pixel and source meanwhile. Nothing is
+ * written unless HP_OK is returned.
  *
  * The caller promises:
  * As hp_solver_distances().

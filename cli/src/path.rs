@@ -50,7 +50,7 @@ fn path_in<const D: usize>(args: &PathArgs, plan: &Plan, file: ImageFile) -> Res
     for (number, path) in curves.paths.iter().enumerate() {
         output::tell(&args.out, &line(number, path));
     }
-    warn_of_dear_paths(&curves.paths, &args.out);
+    warn_of_dear_paths(&curves.paths, plan, &args.out);
     complain_of_missing(&curves.paths, plan)
 }
 
@@ -67,19 +67,20 @@ fn line<const D: usize>(number: usize, path: &Path<D>) -> String {
     }
 }
 
-/// How many times a path of some pixels may cost its distance: by heat of enough steps on real
-/// pictures it is at most 1.14 times.
+/// How many times its distance a path of some pixels may cost: by heat of a fitting number of steps
+/// on real pictures it is at most 1.14 times.
 const DEAREST: f64 = 1.5;
 
-/// Says which paths are no shortest ones.
-fn warn_of_dear_paths<const D: usize>(paths: &[Path<D>], out: &OutputArgs) {
-    for (number, path) in paths.iter().enumerate().filter(|(_, path)| is_dear(path)) {
+/// Says where heat is wrong about a path or its distance.
+fn warn_of_dear_paths<const D: usize>(paths: &[Path<D>], plan: &Plan, out: &OutputArgs) {
+    let dear = paths.iter().enumerate().filter(|(_, path)| is_dear(path));
+    for (number, path) in dear.filter(|_| plan.has_heat()) {
         let times = path.cost / path.distance;
         output::warn(
             out,
             &format!(
-                "path {number} costs {times:.1} times its distance, so it is no shortest path: \
-             --estimator eikonal finds that"
+                "path {number} costs {times:.1} times its distance: it is no shortest path, or the \
+                 distance is too short; --estimator eikonal finds both"
             ),
         );
     }

@@ -5,6 +5,7 @@ use heatpath_core::Exec;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by Ctrl-C and requests to terminate.
@@ -13,16 +14,16 @@ static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 /// Whether signals are the business of somebody else.
 static GUEST: AtomicBool = AtomicBool::new(false);
 
-type Observer = Box<dyn Fn(f64) -> ControlFlow<()>>;
+type Observer = Rc<dyn Fn(f64) -> ControlFlow<()>>;
 
 thread_local! {
-    static OBSERVER: RefCell<Observer> = RefCell::new(Box::new(|_| ControlFlow::Continue(())));
+    static OBSERVER: RefCell<Observer> = RefCell::new(Rc::new(|_| ControlFlow::Continue(())));
 }
 
 /// Lets `observer` know, from now on, which part of a long computation of this thread is finished, from
 /// 0 to 1; [`ControlFlow::Break`] stops it.
 pub fn watch(observer: impl Fn(f64) -> ControlFlow<()> + 'static) {
-    OBSERVER.set(Box::new(observer));
+    OBSERVER.set(Rc::new(observer));
 }
 
 /// Leaves Ctrl-C and requests to terminate, from now on, to the program that this library is a guest of.
@@ -52,7 +53,11 @@ pub(crate) fn run<T>(
         bar.set_position((finished * 1000.0) as u64);
         match INTERRUPTED.load(Ordering::Relaxed) {
             true => ControlFlow::Break(()),
-            false => OBSERVER.with_borrow(|observe| observe(finished)),
+            false => {
+                // The observer may itself run something that is observed.
+                let observe = OBSERVER.with_borrow(Rc::clone);
+                observe(finished)
+            }
         }
     });
     let computed = compute(&exec);

@@ -56,6 +56,11 @@ impl Plan {
         }
     }
 
+    /// Whether heat flows.
+    pub(crate) fn has_heat(&self) -> bool {
+        !matches!(self.approach, Approach::Eikonal(_))
+    }
+
     /// Why an end was not reached.
     pub(crate) fn not_reached(&self) -> &'static str {
         match self.approach {

@@ -154,7 +154,7 @@ static void wrong_labels(void)
     EXPECT(HP_OK, "", NEAREST(method, NULL, &distance, NULL, NULL));
     EXPECT(HP_INVALID_ARGUMENT, "made for heat", NEAREST(heat, &options, &distance, NULL, NULL));
 #undef NEAREST
-    EXPECT(HP_INVALID_BUFFER, "shares: map_stride is 8",
+    EXPECT(HP_INVALID_BUFFER, "shares: the stride of maps is 8",
            hp_solver_nearest(heat, sources, SOURCES, NULL, NULL, NULL, &shares, 8));
     EXPECT(HP_INVALID_POINT, "no source", hp_solver_nearest(heat, NULL, 0, NULL, NULL, &labels, NULL, 0));
     hp_solver_free(heat);

@@ -194,7 +194,7 @@ static void wrong_use(void)
     target.data = NULL;
     EXPECT(HP_INVALID_BUFFER, "data is NULL",
            hp_solver_distances(solver, sources, 1, NULL, &target, 0));
-    EXPECT(HP_INVALID_BUFFER, "map_stride is 8",
+    EXPECT(HP_INVALID_BUFFER, "the stride of maps is 8",
            hp_solver_distances(solver, sources, SOURCES, NULL, &first, 8));
     EXPECT(HP_INVALID_BUFFER, "outside of all memory",
            hp_solver_distances(solver, sources, SOURCES, NULL, &first, INT64_MAX));

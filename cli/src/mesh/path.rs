@@ -70,7 +70,10 @@ fn complain_of_missing(paths: &[Path]) -> Result<(), Failure> {
     let Some(number) = paths.iter().position(|path| is_missing(&path)) else { return Ok(()) };
     let reason = match paths[number].ending {
         Ending::Stuck => "it found no way down",
-        _ => "no source lies in its component, or nearer than --farthest",
+        _ => {
+            "no source lies in its component or nearer than --farthest, or heat needs more \
+              --iterations"
+        }
     };
     Err(Failure::no_answer(format!(
         "{missing} of {} paths did not reach a source; the first is path {number}: {reason}",

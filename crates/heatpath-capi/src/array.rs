@@ -25,8 +25,8 @@ pub struct hp_array {
     /// sizeof(hp_array).
     pub struct_size: u32,
     /// HP_U8 to HP_F64, HP_I64 or HP_U64, in the byte order of the machine. Numbers of vertices and
-    /// faces can have any type of integers, coordinates and values any type; results are HP_F32 or
-    /// HP_F64. There is no default.
+    /// faces can have any type of integers, coordinates and values any type; results that are reals are
+    /// HP_F32 or HP_F64, numbers of faces and labels integers of at least 32 bits. There is no default.
     pub r#type: u32,
     /// The first item.
     pub data: *mut c_void,

@@ -34,8 +34,9 @@ use heatpath_core::grid::{Grid, Sources};
 /// share_stride: the bytes from a map of shares to the next one, as map_stride of
 /// hp_solver_distances().
 ///
-/// Labels are those of heat and of HP_EIKONAL, shares of heat alone; they take 25 bytes for each pixel
-/// and source meanwhile. Nothing is written unless HP_OK is returned.
+/// Labels are those of heat and of HP_EIKONAL, shares of heat alone. With heat both are as HP_NORMALIZED
+/// sees them, whatever the estimator, and take 25 bytes for each pixel and source meanwhile. Nothing is
+/// written unless HP_OK is returned.
 ///
 /// # Safety
 /// As hp_solver_distances().
@@ -169,13 +170,9 @@ impl<const D: usize> Found<D> {
         let wants_labels = targets.labels.is_some() || targets.shares.is_some();
         let (mut distance, mut labels) = (None, None);
         if wants_labels {
-            check_memory(prepared, sources.points().len())?;
+            check_labels(prepared, sources.points().len(), targets.shares.is_some())?;
             let end = if targets.distance.is_some() { LABEL_SHARE } else { 1.0 };
             let nearest = prepared.nearest(sources, &settings.run, end)?;
-            if targets.shares.is_some() && nearest.0.shares.is_empty() {
-                let message = "shares are of heat: those of HP_EIKONAL would all be 0 or 1";
-                return Err(Failure::argument(message));
-            }
             (labels, distance) = (Some(nearest.0), nearest.1);
         }
         if targets.distance.is_some() && distance.is_none() {
@@ -193,6 +190,21 @@ const LABEL_SHARE: f64 = 0.6;
 
 /// The temperatures and shares of all sources, and what belongs to them, in bytes for each pixel.
 const BYTES: usize = 25;
+
+/// Refuses shares where there are none, and more sources than memory holds temperatures of.
+fn check_labels<const D: usize>(
+    prepared: &Prepared<D>,
+    sources: usize,
+    wants_shares: bool,
+) -> Result<(), Failure> {
+    match prepared {
+        Prepared::Heat(_) => check_memory(prepared, sources),
+        Prepared::Eikonal { .. } if wants_shares => {
+            Err(Failure::argument("shares are of heat: those of HP_EIKONAL would all be 0 or 1"))
+        }
+        Prepared::Eikonal { .. } | Prepared::HeatMethod(_) => Ok(()),
+    }
+}
 
 /// Refuses more sources than memory holds temperatures of.
 fn check_memory<const D: usize>(prepared: &Prepared<D>, sources: usize) -> Result<(), Failure> {

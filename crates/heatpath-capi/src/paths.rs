@@ -34,8 +34,9 @@ pub(crate) const DISTANCE_SHARE: f64 = 0.9;
 
 /// Paths, one for each end point, in the order of the end points; or isolines and loops.
 ///
-/// Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by hp_paths_free(). It does not change, so any number of
-/// threads may use it at once, and any thread may free it once the others are done.
+/// Made by hp_paths_create() and the functions whose last argument is such a handle, and freed by
+/// hp_paths_free(). It does not change, so any number of threads may use it at once, and any thread may
+/// free it once the others are done.
 pub struct hp_paths {
     pub(crate) paths: Vec<Traced>,
 }
@@ -68,8 +69,9 @@ pub struct hp_path_info {
     /// The distance of the end point from the sources, infinite if the path reaches none.
     pub distance: f64,
     /// The length of the path in the metric of the medium: its distance, if it is a shortest path. Well
-    /// above the distance, say 1.5 times, heat took a short cut in a medium of strong contrast, and
-    /// HP_EIKONAL finds the shortest path. Not a number (NAN) on meshes.
+    /// above the distance, say 1.5 times, one of the two is wrong: heat took a short cut in a medium of
+    /// strong contrast, or flowed so long that it filled the image. HP_EIKONAL finds both. Not a
+    /// number (NAN) on meshes.
     pub cost: f64,
 }
 

@@ -33,7 +33,7 @@ pub(crate) enum AnyDimension {
 ///
 /// options: those of hp_distance(), but HP_MEDIUM_CONDUCTIVITY, the default, and
 /// HP_MEDIUM_COMBINED need a reference, so NULL will not do. Of the estimator it counts whether it
-/// is HP_EIKONAL: such a solver gives those distances only, and other solvers never do.
+/// is HP_EIKONAL, HP_HEAT_METHOD or another: a solver gives distances of its own kind only.
 ///
 /// solver: receives the solver, to be freed with hp_solver_free(), or NULL if anything but HP_OK is
 /// returned. HP_OUT_OF_MEMORY means that the image is too large for HP_SOLVER_IMPLICIT; the
@@ -89,7 +89,7 @@ unsafe fn prepare<const D: usize>(
 /// sources: source_count points, as for hp_distance().
 ///
 /// options: only estimator, threads, progress and user count here, and of a solver made with
-/// HP_EIKONAL the estimator does not; the rest was fixed when the solver was made. NULL for the
+/// HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL for the
 /// defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
 /// depend on how many there are.
 ///

@@ -37,7 +37,7 @@ pub const HP_RANGE: i32 = 11;
 /// Points and faces are no mesh: there is no face, a face uses a vertex that does not exist, or a
 /// coordinate is infinite or not a number; or faces lie in each other, and HP_MESH_EXACT does not end.
 pub const HP_INVALID_MESH: i32 = 12;
-/// There is nothing to find: the image shows no structure.
+/// There is nothing to find: the image shows no structure, or no heat from one end reaches the other.
 pub const HP_NO_ANSWER: i32 = 13;
 
 /// Why a call failed.

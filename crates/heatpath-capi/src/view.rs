@@ -172,7 +172,7 @@ impl<const D: usize> View<D> {
         let (stride, extent) = (stride.ok_or_else(far)?, self.extent());
         if count > 1 && stride.unsigned_abs() < extent {
             return Err(invalid(format!(
-                "map_stride is {stride}, but that must be at least {extent} bytes or maps would \
+                "the stride of maps is {stride}, but that must be at least {extent} bytes or maps would \
                  overlap"
             )));
         }

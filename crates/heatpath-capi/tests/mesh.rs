@@ -47,6 +47,13 @@ fn array<T>(numbers: &[T], kind: u32, count: usize) -> hp_array {
     array
 }
 
+/// A list for the library to write.
+fn target<T>(numbers: &mut [T], kind: u32) -> hp_array {
+    let mut list = array(numbers, kind, numbers.len());
+    list.data = numbers.as_mut_ptr().cast();
+    list
+}
+
 fn options() -> hp_mesh_options {
     // SAFETY: as in `array`.
     let mut options: hp_mesh_options = unsafe { zeroed() };
@@ -214,12 +221,10 @@ fn c_path(paths: *const hp_paths, index: u64) -> (hp_path_info, Vec<[f64; 3]>) {
 /// The points of a path on faces as C sees them.
 fn c_places(paths: *const hp_paths, index: u64, count: usize) -> Vec<SurfacePoint> {
     let (mut faces, mut weights) = (vec![0_u32; count], vec![[0.0; 3]; count]);
-    let [on, shares] = [array(&faces, HP_U32, count), array(&weights, HP_F64, count)];
+    let (on, shares) = (target(&mut faces, HP_U32), target(&mut weights, HP_F64));
     // SAFETY: the lists describe the vectors above.
     assert_eq!(unsafe { hp_paths_places(paths, index, &on, &shares) }, HP_OK);
-    // Written behind the compiler's back.
-    let (faces, weights) = (std::hint::black_box(&mut faces), std::hint::black_box(&mut weights));
-    faces.iter().zip(weights).map(|(&face, &mut weights)| SurfacePoint { face, weights }).collect()
+    faces.into_iter().zip(weights).map(|(face, weights)| SurfacePoint { face, weights }).collect()
 }
 
 #[test]

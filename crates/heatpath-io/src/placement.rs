@@ -180,7 +180,7 @@ pub fn gap_between<const D: usize>(
     other: ([f64; D], Placement),
 ) -> f64 {
     let gap = |corner: usize| {
-        let last = |axis: usize| (size[axis] - 1) as f64;
+        let last = |axis: usize| size[axis].saturating_sub(1) as f64;
         let point = std::array::from_fn(|axis| (corner >> axis & 1) as f64 * last(axis));
         let [here, there] = [one, other].map(|(spacing, place)| place.to_world(point, spacing));
         length(std::array::from_fn(|axis| here[axis] - there[axis]))

@@ -135,6 +135,7 @@ def mistakes_are_told():
     assert "int64" in refusal(picture.astype("i8"), [(20, 3)])
     assert "4 axes" in refusal(np.zeros((2, 2, 2, 2)), [(0, 0, 0, 0)])
     assert "no option" in refusal(picture, [(20, 3)], kind=TypeError, powder=3)
+    assert "2 coordinates" in refusal(picture, [(1, 2, 3), (4, 5, 6)])
 
 
 def work_can_be_stopped():
@@ -147,6 +148,11 @@ def work_can_be_stopped():
         progress=lambda finished: told.append(finished) or len(told) == 3,
     )
     assert len(told) == 3 and told == sorted(told)
+
+    def broken(_):
+        raise ZeroDivisionError("for this test")
+
+    assert "this test" in refusal(tube(40, 60), [(20, 3)], kind=ZeroDivisionError, progress=broken)
 
 
 results_are_those_of_the_command()

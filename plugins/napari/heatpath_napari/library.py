@@ -113,15 +113,19 @@ def _buffer(array, spacing=None):
 
 def _points(points, dimension):
     """The two arguments for points."""
-    points = np.asarray(points, dtype=float).reshape(-1, dimension)[:, ::-1].copy()
+    points = np.asarray(points, dtype=float)
+    if points.size and points.shape[-1] != dimension:
+        raise HeatpathError(f"points are {points.shape}, but must have {dimension} coordinates each")
+    points = points.reshape(-1, dimension)[:, ::-1].copy()
     return points.ctypes.data_as(c_void_p), c_uint64(len(points))
 
 
 def _options(progress, given):
     options = _Options()
     _check(_library().hp_options_init(byref(options), c_uint32(ctypes.sizeof(options))))
+    options.raised = []
     if progress:
-        options.callback = _Progress(lambda finished, _: bool(progress(finished)))
+        options.callback = _Progress(lambda finished, _: _stops(progress, finished, options.raised))
         options.progress = ctypes.cast(options.callback, c_void_p)
     for name, value in given.items():
         if name == "range":
@@ -140,11 +144,26 @@ def _options(progress, given):
     return options
 
 
+def _stops(progress, finished, raised):
+    """Whether `progress` wants the work to stop; what it raises must wait until the library has returned."""
+    try:
+        return bool(progress(finished))
+    except BaseException as error:
+        raised.append(error)
+        return True
+
+
+def _check_work(status, options):
+    if options.raised:
+        raise options.raised[0]
+    _check(status)
+
+
 def _scene(image, sources, spacing, mask, progress, options):
     """The arguments that all functions begin with, and the options."""
     buffer = _buffer(image, spacing)
     walls = byref(_buffer(mask)) if mask is not None else None
-    return (byref(buffer), walls, *_points(sources, image.ndim)), byref(_options(progress, options))
+    return (byref(buffer), walls, *_points(sources, image.ndim)), _options(progress, options)
 
 
 def distance(image, sources, *, spacing=None, mask=None, progress=None, **options):
@@ -156,7 +175,8 @@ def distance(image, sources, *, spacing=None, mask=None, progress=None, **option
     """
     scene, options = _scene(image, sources, spacing, mask, progress, options)
     result = np.empty(image.shape)
-    _check(_library().hp_distance(*scene, options, byref(_buffer(result))))
+    status = _library().hp_distance(*scene, byref(options), byref(_buffer(result)))
+    _check_work(status, options)
     return result
 
 
@@ -165,7 +185,8 @@ def paths(image, sources, ends, *, spacing=None, mask=None, progress=None, **opt
     scene, options = _scene(image, sources, spacing, mask, progress, options)
     handle = c_void_p()
     ends, count = _points(ends, image.ndim)
-    _check(_library().hp_paths_create(*scene, ends, count, options, byref(handle)))
+    status = _library().hp_paths_create(*scene, ends, count, byref(options), byref(handle))
+    _check_work(status, options)
     try:
         return [_path(handle, i, image.ndim) for i in range(count.value)]
     finally:

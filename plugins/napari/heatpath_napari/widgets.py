@@ -62,6 +62,16 @@ def _points(points, image):
     return [np.round(image.world_to_data(_world(points, point)), 9) for point in points.data]
 
 
+def _walls(walls, image):
+    """The labels that are not 0, which must lie where the image does."""
+    labels = np.asarray(walls.data[0] if walls.multiscale else walls.data)
+    corners = [np.zeros(labels.ndim), np.array(labels.shape) - 1]
+    near = 0.5 * min(_spacing(image))
+    if walls.ndim != image.ndim or any(np.abs(_world(walls, c) - _world(image, c)).max() > near for c in corners):
+        raise library.HeatpathError(f"{walls.name} lies elsewhere than {image.name}")
+    return (labels != 0).view("u1")
+
+
 def _place(image):
     return {name: getattr(image, name) for name in ("scale", "translate", "rotate", "shear", "affine")}
 
@@ -84,7 +94,7 @@ def _run(
     if scale:
         options["scale"] = [float(number) for number in scale.split(",")]
     if walls is not None:
-        options["mask"] = (np.asarray(walls.data) != 0).view("u1")
+        options["mask"] = _walls(walls, image)
     if ends is None:
         return _worker(distance_layer, image, sources, **options)
     return _worker(path_layer, image, sources, ends, **options)
@@ -109,12 +119,19 @@ def _add_cancel(widget):
     button = PushButton(text="Cancel", enabled=False)
     widget.append(button)
 
+    workers = []
+
     def begin(worker):
-        button.clicked.connect(worker.quit)
-        worker.finished.connect(lambda: setattr(button, "enabled", False))
+        workers.append(worker)
+        worker.finished.connect(lambda: end(worker))
         button.enabled = True
         worker.start()
 
+    def end(worker):
+        workers.remove(worker)
+        button.enabled = bool(workers)
+
+    button.clicked.connect(lambda: [worker.quit() for worker in workers])
     widget.called.connect(begin)
 
 

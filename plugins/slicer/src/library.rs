@@ -17,6 +17,7 @@ use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use std::ptr::NonNull;
 use std::rc::Rc;
 use std::sync::Once;
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::time::Instant;
 
 /// What a module returns, as a program and as a library, after a mistake of its own.
@@ -66,7 +67,7 @@ impl Host {
             if let Some(callback) = (*information).callback.filter(|_| !data.is_null()) {
                 callback(data);
             }
-            (&raw const (*information).abort).read_volatile()
+            AtomicU8::from_ptr(&raw mut (*information).abort).load(Ordering::Relaxed)
         };
         if abort == 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
@@ -108,6 +109,7 @@ pub unsafe fn entry_point(
     count: c_int,
     arguments: *const *const c_char,
 ) -> c_int {
+    be_a_guest();
     // SAFETY: promised by the caller.
     let words = unsafe { words(count, arguments) };
     let host =
@@ -149,14 +151,18 @@ fn address(words: &[OsString]) -> Option<NonNull<ProcessInformation>> {
     pointer.is_aligned().then_some(pointer)
 }
 
-/// Lets no panic out, and none print: the hook is that of this library's own copy of Rust's standard
-/// library, not the host's.
-fn guarded(work: impl FnOnce() -> (c_int, Option<String>)) -> (c_int, Option<String>) {
+/// From now on panics print nothing, and signals are the host's. The hook is that of this library's own
+/// copy of Rust's standard library.
+fn be_a_guest() {
     static GUEST: Once = Once::new();
     GUEST.call_once(|| {
         panic::set_hook(Box::new(|_| ()));
         heatpath_cli::be_a_guest();
     });
+}
+
+/// Lets no panic out.
+fn guarded(work: impl FnOnce() -> (c_int, Option<String>)) -> (c_int, Option<String>) {
     catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|_| (PANIC, Some("a mistake inside heatpath; please report it".to_owned())))
 }

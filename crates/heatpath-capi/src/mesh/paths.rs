@@ -15,8 +15,9 @@ use crate::paths::{
 };
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::Versioned;
+use heatpath_core::Exec;
 use heatpath_core::mesh::path::{Ending, Path, isolines, shorten};
-use heatpath_core::mesh::{Sources, SurfacePoint, TriMesh};
+use heatpath_core::mesh::{Method, Sources, SurfacePoint, TriMesh};
 
 /// Traces the shortest path from each end point to a source.
 ///
@@ -52,7 +53,7 @@ pub unsafe extern "C" fn hp_mesh_paths_create(
             let ends = read_points(&tracer.prepared.surface, ends, ["end", "ends"])?;
             (tracer, sources, ends)
         };
-        let legs = tracer.legs(&sources, &ends)?;
+        let legs = tracer.legs(&sources, &ends, &tracer.settings.run.exec()?)?;
         tracer.settings.run.finish()?;
         Ok(hp_paths { paths: legs.into_iter().map(Leg::traced).collect() })
     };
@@ -213,9 +214,13 @@ impl Tracer<'_> {
     }
 
     /// Traces paths to `sources`.
-    fn legs(&self, sources: &Sources, ends: &[SurfacePoint]) -> Result<Vec<Leg>, Failure> {
-        let exec = self.settings.run.exec()?;
-        let (_, paths) = self.prepared.geodesics.paths(sources, ends, &exec)?;
+    fn legs(
+        &self,
+        sources: &Sources,
+        ends: &[SurfacePoint],
+        exec: &Exec,
+    ) -> Result<Vec<Leg>, Failure> {
+        let (_, paths) = self.prepared.geodesics.paths(sources, ends, exec)?;
         paths.into_iter().map(|path| self.leg(sources, path)).collect()
     }
 
@@ -239,9 +244,10 @@ impl Tracer<'_> {
         self.prepared.surface.mesh()
     }
 
-    /// Whether a source would be reached if distances did not end.
+    /// Whether a source would be reached if distances, or the time of heat, did not end.
     fn is_far(&self, sources: &Sources, path: &Path) -> bool {
-        if self.prepared.farthest == f64::INFINITY {
+        let is_explicit = self.prepared.geodesics.method() == Method::Explicit;
+        if self.prepared.farthest == f64::INFINITY && !is_explicit {
             return false;
         }
         let mesh = self.mesh();
@@ -253,12 +259,12 @@ impl Tracer<'_> {
     fn through(&self, points: &[SurfacePoint]) -> Result<Leg, Failure> {
         let (mesh, count) = (self.mesh(), points.len() - 1);
         let mut whole = Leg { distance: 0.0, ..Leg::none(mesh, points[0], HP_ENDED_SOURCE) };
+        let run = &self.settings.run;
+        let exec = run.exec()?;
         for (number, pair) in points.windows(2).enumerate() {
-            self.settings
-                .run
-                .part(number as f64 / count as f64, (number + 1) as f64 / count as f64)?;
+            run.part(number as f64 / count as f64, (number + 1) as f64 / count as f64)?;
             let sources = Sources::new(mesh, &pair[1..])?;
-            for leg in self.legs(&sources, &pair[..1])? {
+            for leg in self.legs(&sources, &pair[..1], &exec)? {
                 whole = whole.then(&leg);
             }
             if whole.ending != HP_ENDED_SOURCE {

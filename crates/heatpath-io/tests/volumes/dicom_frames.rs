@@ -1,6 +1,6 @@
 //! DICOM: files of several frames.
 
-use crate::common::dicom::{Dicom, frames};
+use crate::common::dicom::{Dicom, SEQUENCE_END, frames, item};
 use crate::common::volumes::text_error;
 use crate::file;
 use heatpath_io::{ImageFile, ReadError};
@@ -63,6 +63,31 @@ fn regular_frames_have_one_distance() {
     let file = file(&plain(&[(0x0018_0088, "2.5")]).bytes());
     assert_eq!(file.spacing(), Some([0.25, 0.5, 2.5]));
     assert_eq!(file.into_field::<3>(None).unwrap().values()[11], 11.0);
+}
+
+#[test]
+fn frames_that_follow_by_time_are_no_slices() {
+    let by = |order: [u16; 2]| {
+        let mut file = plain(&[(0x0018_0088, "2.5")]);
+        let order = order.into_iter().flat_map(u16::to_le_bytes).collect();
+        file.more.push((0x0028_0009, *b"AT", order));
+        ImageFile::from_bytes(&file.bytes(), "a.dcm")
+    };
+    assert_eq!(by([0x0054, 0x0080]).unwrap().spacing(), Some([0.25, 0.5, 2.5]));
+    let error = by([0x0018, 0x1063]).unwrap_err();
+    assert!(matches!(error, ReadError::Component { count: 2, .. }), "{error}");
+}
+
+#[test]
+fn frames_of_a_detector_lie_where_it_does() {
+    let mut dicom = plain(&[(0x0018_0088, "2.5")]);
+    let detector =
+        item(&[(0x0020_0032, *b"DS", b"5\\6\\7 "), (0x0020_0037, *b"DS", b"1\\0\\0\\0\\-1\\0 ")]);
+    dicom.more.push((0x0054_0022, *b"SQ", [detector, SEQUENCE_END.to_vec()].concat()));
+    let file = file(&dicom.bytes());
+    let place = file.placement().unwrap();
+    assert_eq!(place.direction, [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+    assert_eq!((place.origin, file.spacing()), ([5.0, 6.0, 7.0], Some([0.25, 0.5, 2.5])));
 }
 
 #[test]

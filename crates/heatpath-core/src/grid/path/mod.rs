@@ -50,10 +50,11 @@ pub struct Path<const D: usize> {
     pub distance: f64,
     /// The length of the polyline in the metric of the medium ([`Medium::cost`]).
     ///
-    /// Of a shortest path it is the distance. A cost well above the distance says that this is no
-    /// shortest path. Heat in media of strong contrast does not measure their metric: in few steps it
-    /// comes no further than their number, in many it is lost to slow cells, which stay cold.
-    /// [`Eikonal`](super::distance::Eikonal) finds the path there.
+    /// Of a shortest path it is the distance. A cost well above the distance says that one of the two
+    /// is wrong. Heat in media of strong contrast does not measure their metric: in few steps it comes
+    /// no further than their number, in many it is lost to slow cells, which stay cold. In very many
+    /// it fills the grid, and distances become too short.
+    /// [`Eikonal`](super::distance::Eikonal) finds both.
     pub cost: f64,
 }
 

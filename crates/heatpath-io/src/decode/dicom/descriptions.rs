@@ -14,6 +14,14 @@ const PLANE_ORIENTATION: Tag = 0x0020_9116;
 const PIXEL_MEASURES: Tag = 0x0028_9110;
 const PIXEL_VALUES: Tag = 0x0028_9145;
 
+/// What nuclear medicine says of its detectors; of a tomography there is one.
+const DETECTORS: Tag = 0x0054_0022;
+
+/// By which element the frames follow one another, and those by which they are slices: of nuclear
+/// medicine and of captures.
+const FRAME_ORDER: Tag = 0x0028_0009;
+const BY_SLICE: [[u16; 2]; 2] = [[0x0054, 0x0080], [0x0018, 0x2005]];
+
 const POSITION: Tag = 0x0020_0032;
 const ORIENTATION: Tag = 0x0020_0037;
 const SPACING: Tag = 0x0028_0030;
@@ -37,12 +45,13 @@ impl<'a> Descriptions<'a> {
     /// Of a file of `count` frames.
     pub(super) fn new(file: &'a DataSet<'a>, count: usize) -> Result<Self, String> {
         let is_single = count == 1;
+        let between = file.array(BETWEEN_SLICES)?.map(|[distance]| distance);
         Ok(Self {
             file,
             shared: file.items(SHARED)?.into_iter().next(),
             frames: file.items(PER_FRAME)?,
             offsets: file.numbers(GRID_OFFSETS)?.filter(|_| !is_single),
-            between: file.array(BETWEEN_SLICES)?.map(|[distance]| distance).filter(|_| !is_single),
+            between: between.filter(|_| !is_single && follow_by_slice(file)),
         })
     }
 
@@ -114,15 +123,16 @@ impl<'a> Descriptions<'a> {
         })
     }
 
-    /// Numbers of a functional group of a frame or of all frames, else of the file.
+    /// Numbers of a functional group of a frame or of all frames, else of the detector, else of the file.
     fn array<const N: usize>(
         &self,
         frame: usize,
         group: Tag,
         tag: Tag,
     ) -> Result<Option<[f64; N]>, String> {
-        for groups in self.frames.get(frame).into_iter().chain(&self.shared) {
-            for item in groups.items(group)? {
+        let of_frame = self.frames.get(frame).into_iter().chain(&self.shared);
+        for (set, sequence) in of_frame.map(|set| (set, group)).chain([(self.file, DETECTORS)]) {
+            for item in set.items(sequence)? {
                 if let Some(found) = item.array(tag)? {
                     return Ok(Some(found));
                 }
@@ -130,4 +140,10 @@ impl<'a> Descriptions<'a> {
         }
         self.file.array(tag)
     }
+}
+
+/// Whether nothing but the place differs from frame to frame, as far as the file says.
+fn follow_by_slice(file: &DataSet<'_>) -> bool {
+    let order: Vec<u16> = file.shorts(FRAME_ORDER).collect();
+    order.is_empty() || BY_SLICE.iter().any(|by| order == by)
 }

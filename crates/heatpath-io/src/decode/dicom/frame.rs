@@ -9,6 +9,7 @@ use crate::ReadError;
 use crate::decode::Input;
 use crate::decode::palette::{Coloured, coloured};
 use crate::decode::volume::{Scale, samples};
+use crate::memory;
 use crate::placement::{Geometry, Vector, dot};
 use crate::sample::{SampleType, Samples};
 
@@ -38,8 +39,8 @@ impl Frame {
     /// Whether both can be slices of one volume.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let alike = |a: &Geometry, b: &Geometry| {
-            let [spacing, other] = [a.spacing, b.spacing];
-            let same_size = (0..2).all(|i| (spacing[i] - other[i]).abs() <= 1e-3 * spacing[i]);
+            let [one, two] = [a.spacing, b.spacing];
+            let same_size = (0..2).all(|i| (one[i] - two[i]).abs() <= 1e-3 * one[i]);
             let axes = a.placement.direction.iter().zip(b.placement.direction);
             same_size && axes.into_iter().all(|(x, y)| dot(*x, y) > 1.0 - 1e-5)
         };
@@ -104,6 +105,8 @@ impl<'a> Frames<'a> {
 
     fn decode(&self, input: &Input<'_>, frame: usize) -> Result<Frame, ReadError> {
         let size = self.check_size(input, 1)?;
+        let working = self.compression.working_bytes();
+        memory::check(input.path, self.layout.frame_samples().saturating_mul(working))?;
         let (samples, scale) = self.samples(frame).map_err(|e| input.broken(e))?;
         let place = self.descriptions.geometry(frame).map_err(|e| input.broken(e))?;
         Ok(Frame {

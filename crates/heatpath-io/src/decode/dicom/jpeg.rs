@@ -2,7 +2,7 @@
 
 use super::layout::Layout;
 use super::pixels::WAY_OUT;
-use jpeg_decoder::{ColorTransform, Decoder, Error, UnsupportedFeature};
+use jpeg_decoder::{CodingProcess, ColorTransform, Decoder, Error, UnsupportedFeature};
 
 pub(super) fn decoded(data: &[u8], layout: &Layout) -> Result<Vec<u8>, String> {
     let mut decoder = Decoder::new(data);
@@ -15,6 +15,9 @@ pub(super) fn decoded(data: &[u8], layout: &Layout) -> Result<Vec<u8>, String> {
     decoder.read_info().map_err(reason)?;
     let info = decoder.info().ok_or("no JPEG header")?;
     layout.check_size("JPEG", [info.width, info.height].map(u32::from))?;
+    if layout.is_ybr && info.coding_process == CodingProcess::Lossless {
+        return Err(format!("lossless JPEG of YBR colours; RGB is accepted: {WAY_OUT}"));
+    }
     let (found, needed) = (info.pixel_format.pixel_bytes(), layout.pixel_bytes());
     if found != needed {
         return Err(format!("its JPEG has pixels of {found} bytes, not {needed}"));

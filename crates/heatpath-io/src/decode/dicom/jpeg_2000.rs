@@ -11,7 +11,7 @@ const MOST_BITS: u32 = 16;
 const COMPONENTS: usize = 40;
 
 pub(super) fn decoded(data: &[u8], layout: &Layout) -> Result<Vec<u8>, String> {
-    let (bits, is_signed) = first_component(data, layout)?;
+    let (bits, is_signed) = component_type(data, layout)?;
     let settings =
         DecodeSettings { resolve_palette_indices: false, strict: true, target_resolution: None };
     let image = Image::new(data, &settings).map_err(|e| e.to_string())?;
@@ -31,8 +31,8 @@ pub(super) fn decoded(data: &[u8], layout: &Layout) -> Result<Vec<u8>, String> {
     Ok(samples.flat_map(|bytes| bytes.into_iter().take(length)).collect())
 }
 
-/// The bits of the first component, which speaks for all, and whether it is signed.
-fn first_component(data: &[u8], layout: &Layout) -> Result<(u32, bool), String> {
+/// The bits of the components and whether they are signed; all are alike.
+fn component_type(data: &[u8], layout: &Layout) -> Result<(u32, bool), String> {
     let header =
         data.get(COMPONENTS..COMPONENTS + 3).filter(|_| data.starts_with(b"\xff\x4f\xff\x51"));
     let Some(&[high, low, kind]) = header else {
@@ -45,6 +45,10 @@ fn first_component(data: &[u8], layout: &Layout) -> Result<(u32, bool), String> 
             "its JPEG 2000 has {count} components of {bits} bits; {channels} of up to {most} bits are \
              accepted"
         ));
+    }
+    let others = data[COMPONENTS + 2..].chunks_exact(3).take(usize::from(count));
+    if !others.eq((0..count).map(|_| [kind, 1, 1])) {
+        return Err(format!("the {count} components of its JPEG 2000 differ in type or size"));
     }
     Ok((bits, kind & 0x80 != 0))
 }

@@ -18,6 +18,9 @@ pub(super) fn decoded(data: &[u8], layout: &Layout) -> Result<Vec<u8>, String> {
 fn reason(error: &CodecError) -> String {
     match error {
         CodecError::Unsupported(_) => format!("{error}: {WAY_OUT}"),
-        _ => error.to_string(),
+        CodecError::DimensionMismatch { .. } => {
+            "its JPEG-LS has other rows and columns than the file says".to_owned()
+        }
+        _ => format!("its JPEG-LS: {error}"),
     }
 }

@@ -94,7 +94,7 @@ impl Layout {
         }
     }
 
-    fn frame_samples(&self) -> u64 {
+    pub(super) fn frame_samples(&self) -> u64 {
         u64::from(self.columns) * u64::from(self.rows) * u64::from(self.channels)
     }
 

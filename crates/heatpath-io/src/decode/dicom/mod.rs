@@ -40,6 +40,7 @@ pub(super) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> {
     let named = (0..).zip(slices).map(|(i, frame)| Slice::new(format!("frame {i}"), frame));
     stacked(named.collect()).map_err(|reason| match count {
         1 => input.broken(reason),
-        _ => input.broken(format!("{reason}; choose one component, from 0 to {}", count - 1)),
+        _ => input
+            .broken(format!("no volume (choose one component, from 0 to {}): {reason}", count - 1)),
     })
 }

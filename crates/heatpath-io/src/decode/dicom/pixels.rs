@@ -37,11 +37,20 @@ impl Compression {
     /// One byte of a compressed frame stands for at most this many samples.
     pub(super) fn expansion(self) -> u64 {
         match self {
-            // 8 blocks of 64 in one bit each, and a margin.
+            // JPEG: 8 blocks of 64 in one bit each, and a margin. Run lengths: 64.
             Self::None | Self::Rle | Self::Jpeg => 1 << 10,
             // Runs of 2^15 in one bit each. A packet of JPEG 2000 has no such limit; with it, a frame
             // of one colour still has 2^24 pixels in 64 bytes.
             Self::JpegLs | Self::Jpeg2000 => 1 << 18,
+        }
+    }
+
+    /// The bytes of memory that a decoder may need for each sample of a frame.
+    pub(super) fn working_bytes(self) -> u64 {
+        match self {
+            // Blocks of 4 x 4 samples with 32 layers.
+            Self::Jpeg2000 => 64,
+            Self::None | Self::Rle | Self::Jpeg | Self::JpegLs => 8,
         }
     }
 
@@ -65,8 +74,12 @@ impl Compression {
             Self::Jpeg => jpeg::decoded(&piece, layout),
             Self::JpegLs => jpeg_ls::decoded(&piece, layout),
             Self::Jpeg2000 => jpeg_2000::decoded(&piece, layout),
-        };
-        bytes.map(Cow::Owned)
+        }?;
+        let (found, needed) = (bytes.len(), layout.frame_bytes());
+        if found != needed {
+            return Err(format!("frame {frame} has {found} bytes decompressed, not {needed}"));
+        }
+        Ok(Cow::Owned(bytes))
     }
 }
 

@@ -35,7 +35,8 @@ pub(in crate::decode) fn decode(input: &Input<'_>) -> Result<Raster, ReadError> 
     }
     let name = data_name(input);
     let data = input.beside(&name)?;
-    header.encoded(name.ends_with(".gz")).decode(input, &data)
+    let path = input.path.with_file_name(&name);
+    header.encoded(name.ends_with(".gz")).decode(&Input { path: &path, ..*input }, &data)
 }
 
 impl Header {
@@ -48,7 +49,10 @@ impl Header {
 fn data_name(input: &Input<'_>) -> String {
     let name = input.path.file_name().unwrap_or_default().to_string_lossy();
     let stem = name.strip_suffix(".gz").unwrap_or(&name);
-    let plain = format!("{}.img", stem.strip_suffix(".hdr").unwrap_or(stem));
+    let plain = match stem.strip_suffix(".HDR") {
+        Some(stem) => format!("{stem}.IMG"),
+        None => format!("{}.img", stem.strip_suffix(".hdr").unwrap_or(stem)),
+    };
     let zipped = format!("{plain}.gz");
     let exists = |name: &str| input.wanted.folder.is_some_and(|folder| folder.join(name).is_file());
     if exists(&zipped) && !exists(&plain) { zipped } else { plain }
