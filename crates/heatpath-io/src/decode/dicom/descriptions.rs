@@ -33,8 +33,10 @@ const INTERCEPT: Tag = 0x0028_1052;
 
 pub(super) struct Descriptions<'a> {
     file: &'a DataSet<'a>,
-    shared: Option<DataSet<'a>>,
     frames: Vec<DataSet<'a>>,
+    /// The groups of all frames.
+    shared: Vec<(Tag, Vec<DataSet<'a>>)>,
+    detectors: Vec<DataSet<'a>>,
     /// How far along the normal the frames lie, if a list says so.
     offsets: Option<Vec<f64>>,
     /// How far each frame lies from the one before it, if they are that regular.
@@ -46,10 +48,17 @@ impl<'a> Descriptions<'a> {
     pub(super) fn new(file: &'a DataSet<'a>, count: usize) -> Result<Self, String> {
         let is_single = count == 1;
         let between = file.array(BETWEEN_SLICES)?.map(|[distance]| distance);
+        let mut shared = Vec::new();
+        for groups in file.items(SHARED)?.iter().take(1) {
+            for tag in [PLANE_POSITION, PLANE_ORIENTATION, PIXEL_MEASURES, PIXEL_VALUES] {
+                shared.push((tag, groups.items(tag)?));
+            }
+        }
         Ok(Self {
             file,
-            shared: file.items(SHARED)?.into_iter().next(),
             frames: file.items(PER_FRAME)?,
+            shared,
+            detectors: file.items(DETECTORS)?,
             offsets: file.numbers(GRID_OFFSETS)?.filter(|_| !is_single),
             between: between.filter(|_| !is_single && follow_by_slice(file)),
         })
@@ -130,12 +139,12 @@ impl<'a> Descriptions<'a> {
         group: Tag,
         tag: Tag,
     ) -> Result<Option<[f64; N]>, String> {
-        let of_frame = self.frames.get(frame).into_iter().chain(&self.shared);
-        for (set, sequence) in of_frame.map(|set| (set, group)).chain([(self.file, DETECTORS)]) {
-            for item in set.items(sequence)? {
-                if let Some(found) = item.array(tag)? {
-                    return Ok(Some(found));
-                }
+        let own = self.frames.get(frame).map_or_else(|| Ok(Vec::new()), |set| set.items(group))?;
+        let shared = self.shared.iter().filter(|(name, _)| *name == group);
+        let items = own.iter().chain(shared.flat_map(|(_, items)| items)).chain(&self.detectors);
+        for item in items {
+            if let Some(found) = item.array(tag)? {
+                return Ok(Some(found));
             }
         }
         self.file.array(tag)
