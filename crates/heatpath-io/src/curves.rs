@@ -100,7 +100,8 @@ fn arrays<const D: usize>(curves: &Curves<D>) -> [vtp::LineArray; 4] {
 ///
 /// With a placement `origin` and `direction` (a unit vector for each axis) follow the spacing. `ended` is
 /// `source`, `unreachable`, `not_reached` or `step_limit`; `source` is null unless the
-/// path ended at one, `distance` is null where there is none, and `cost` on meshes. The key points are left out if there
+/// path ended at one, `distance` is null where there is none, and `cost` also on meshes and of curves that
+/// were found without ends. The key points are left out if there
 /// are none; `parent` is the number of the key point at which one's path ends, null for seeds.
 #[must_use]
 pub fn curves_json<const D: usize>(curves: &Curves<D>) -> Value {
@@ -150,7 +151,7 @@ struct Entry<'a> {
     end: Option<&'a [f64]>,
     /// Infinity becomes null.
     distance: f64,
-    /// NaN becomes null.
+    /// Infinity and NaN become null.
     cost: f64,
 }
 

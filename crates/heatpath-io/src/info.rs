@@ -29,8 +29,8 @@ pub struct Info {
     /// Where the grid lies in the world, if the file says so.
     #[serde(flatten)]
     pub placement: Option<Placement>,
-    /// The pictures in the file; more than 1 only for TIFF and folders of DICOM. They are the slices of a volume, or else
-    /// the first one is read.
+    /// The pictures in the file; more than 1 only for TIFF and DICOM. They are the slices of a volume,
+    /// or else the first one is read.
     pub pages: usize,
 }
 

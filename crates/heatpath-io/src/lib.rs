@@ -29,9 +29,9 @@
 //! Inputs are recognised by their content, outputs by the ending of their name. Inputs are not
 //! trusted: no size is believed before the file is long enough for it, and each error is one line
 //! that names the file, what was wrong and what would have been accepted. Outputs appear complete
-//! or not at all ([`write_atomically`]), of a header with a data file each by itself. Well-kept crates do the formats; this one holds what lies
-//! between them and a [`Grid`](heatpath_core::grid::Grid), and the formats
-//! of meshes and medical volumes.
+//! or not at all ([`write_atomically`]); a header and its data file do so each by itself. Well-kept
+//! crates do the formats; this one holds what lies between them and a
+//! [`Grid`](heatpath_core::grid::Grid), and the formats of meshes and medical volumes.
 //!
 //! ```
 //! use heatpath_core::grid::{Grid, Shape};

@@ -23,7 +23,7 @@ const NAME: usize = 180;
 /// The endings of formats for eyes.
 const PICTURES: [&str; 2] = ["png", "svg"];
 
-/// The endings of headers whose data go to a file of their own.
+/// The endings of headers whose data go to a file of their own, as `Volume::write` does it.
 const DETACHED: [&str; 2] = ["mhd", "nhdr"];
 
 /// The one ending with a dot inside.

@@ -33,7 +33,10 @@ fn volume() -> Grid<f64, 3> {
 }
 
 fn path() -> Path<3> {
-    let points = (0..=240).rev().map(|i| helix(f64::from(i) * 0.05)).collect();
+    through((0..=240).rev().map(|i| helix(f64::from(i) * 0.05)).collect())
+}
+
+fn through(points: Vec<[f64; 3]>) -> Path<3> {
     Path {
         points,
         ending: Ending::Source(0),
@@ -116,15 +119,7 @@ fn fields_are_on_slices_with_a_bar_beside() {
 fn curves_are_whole_on_projections_and_near_on_slices() {
     let volume = Grid::from_fn(Shape::new([64, 64, 64]).unwrap(), |_| 0.0);
     // From corner to corner: the slices show the middle of it.
-    let points = (0..64).map(|i| [f64::from(i); 3]).collect();
-    let path = Path {
-        points,
-        ending: Ending::Source(0),
-        length: 1.0,
-        physical_length: 1.0,
-        distance: 1.0,
-        cost: 1.0,
-    };
+    let path = through((0..64).map(|i| [f64::from(i); 3]).collect());
     let picture = drawn(&volume, &Overlay { paths: &[path], ..Overlay::default() });
     let cyan = |x: u32, y: u32| is_cyan(picture.get_pixel(x, y).0);
     let [left, top] = CORNER;

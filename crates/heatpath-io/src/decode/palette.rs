@@ -1,4 +1,4 @@
-//! TIFF pictures whose samples are places in a list of colours.
+//! Samples that are places in a list of colours: of TIFF how to get them, and for all formats the colours.
 
 use super::Raster;
 use crate::sample::{SampleType, Samples};

@@ -80,6 +80,26 @@ fn frames_that_are_not_as_announced_are_refused() {
 }
 
 #[test]
+fn jpeg_2000_in_tiny_parts_is_refused() {
+    let error =
+        |frame: &[u8]| text_error(&compressed("1.2.840.10008.1.2.4.90", [16, 16], frame).bytes());
+    let mut tiles = JPEG_2000.to_vec();
+    tiles[27] = 1;
+    assert!(error(&tiles).contains("tiles or precincts of less than 64 x 64"));
+    let style = b"\xffR\0\x0c\0\0\0\x01\0\x05\x04\x04\0\x01";
+    let at = JPEG_2000.windows(style.len()).position(|part| part == style).unwrap();
+    let end = at + style.len();
+    let with =
+        |style: &[u8], more: &[u8]| [&JPEG_2000[..at], style, more, &JPEG_2000[end..]].concat();
+    let precincts = b"\xffR\0\x12\x01\0\0\x01\0\x05\x04\x04\0\x01\x33\x33\x33\x33\x33\x33";
+    assert!(error(&with(precincts, b"")).contains("tiles or precincts of less than 64 x 64"));
+    let own = b"\xffS\0\x0f\0\x01\x05\x04\x04\0\x01\x33\x33\x33\x33\x33\x33";
+    assert!(error(&with(style, own)).contains("tiles or precincts of less than 64 x 64"));
+    let changes = [&b"\xff_\0\xe9"[..], &[0, 0, 0, 1, 6, 1, 2].repeat(33)].concat();
+    assert!(error(&with(style, &changes)).contains("order of packets 33 times"));
+}
+
+#[test]
 fn palettes_become_colours() {
     let words =
         |words: &[u16]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<_>>();

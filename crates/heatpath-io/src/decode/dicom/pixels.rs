@@ -48,7 +48,7 @@ impl Compression {
     /// The bytes of memory that a decoder may need for each sample of a frame.
     pub(super) fn working_bytes(self) -> u64 {
         match self {
-            // Blocks of 4 x 4 samples with 32 layers.
+            // Blocks of 4 x 4 samples with 32 layers; smaller parts are refused.
             Self::Jpeg2000 => 64,
             Self::None | Self::Rle | Self::Jpeg | Self::JpegLs => 8,
         }
