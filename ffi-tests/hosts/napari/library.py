@@ -114,8 +114,8 @@ def strides_are_read_where_they_are():
 
 
 def masks_are_walls():
-    mask = np.ones((40, 60), "u1")
-    mask[:, 30] = 0
+    mask = np.ones((40, 60), bool)
+    mask[:, 30] = False
     found = library.distance(tube(40, 60), [(20, 3)], mask=mask, medium="uniform", estimator="eikonal")
     assert np.isinf(found[:, 30:]).all() and abs(found[20, 23] - 20) < 1e-9
 

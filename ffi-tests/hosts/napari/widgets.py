@@ -4,6 +4,7 @@ The result is in layers; with PICTURE, the window is drawn into that file.
 """
 
 import sys
+import warnings
 
 import napari
 import numpy as np
@@ -63,6 +64,9 @@ def points_are_in_the_world():
     assert kind == "image" and np.allclose(data, expected, atol=1e-5)
     again = napari.layers.Layer.create(data, about, kind)
     assert np.allclose(again.data_to_world((5, 6)), image.data_to_world((5, 6)))
+    with warnings.catch_warnings(record=True) as told:
+        paths = widgets.path_layer(image, world, world)[0]
+    assert paths == [] and "lie on one" in str(told[0].message)
     coloured = napari.layers.Image(np.zeros((9, 9, 3)), rgb=True)
     try:
         widgets.distance_layer(coloured, world)

@@ -95,6 +95,8 @@ def _check(status):
 
 
 def _buffer(array, spacing=None):
+    if array.dtype == bool:
+        array = array.view("u1")
     if array.dtype not in TYPES:
         raise HeatpathError(f"pixels are {array.dtype}, but can be {', '.join(map(str, TYPES))}")
     if array.ndim not in (2, 3):

@@ -26,9 +26,9 @@ def path_layer(image, sources, ends, progress=None, **options):
     """The paths from the points of a layer to those of another, as the data of a shapes layer."""
     scene = _scene(image, sources, options)
     found = library.paths(**scene, ends=_points(ends, image), progress=progress)
-    paths = [path for path in found if path.reaches_source]
+    paths = [path for path in found if path.reaches_source and len(path.points) > 1]
     if len(paths) < len(found):
-        warnings.warn(f"{len(found) - len(paths)} of {len(found)} ends reach no source")
+        warnings.warn(f"{len(found) - len(paths)} of {len(found)} ends reach no source, or lie on one")
     numbers = {name: [getattr(path, name) for path in paths] for name in ("physical_length", "distance")}
     looks = {"shape_type": "path", "edge_color": "red", "edge_width": 1}
     about = {"name": f"{image.name}: paths", "features": numbers} | looks | _place(image)
@@ -69,7 +69,7 @@ def _walls(walls, image):
     near = 0.5 * min(_spacing(image))
     if walls.ndim != image.ndim or any(np.abs(_world(walls, c) - _world(image, c)).max() > near for c in corners):
         raise library.HeatpathError(f"{walls.name} lies elsewhere than {image.name}")
-    return (labels != 0).view("u1")
+    return labels != 0
 
 
 def _place(image):
