@@ -105,6 +105,42 @@ struct Buffer : hp_buffer {
     std::size_t pixels() const { return size[0] * size[1] * (dimension == 3 ? size[2] : 1); }
 };
 
+/** Described items, see hp_array; the fields can be changed. */
+struct Array : hp_array {
+    /** How many numbers an item has, so that no more are read; 0 if only the caller knows. */
+    std::size_t width = 0;
+
+    Array() { check(hp_array_init(this, sizeof(hp_array))); }
+
+    /** Items without gaps; an item may be several numbers. Input is only read. */
+    template <class T>
+    Array(T *items, std::size_t item_count) : Array()
+    {
+        data = const_cast<std::remove_const_t<T> *>(items);
+        type = type_of<T>();
+        count = item_count;
+    }
+
+    /** The numbers of a container, one an item. */
+    template <class Container, class T = std::remove_pointer_t<decltype(
+                                   std::declval<Container &>().data())>,
+              class = std::enable_if_t<std::is_arithmetic_v<T>>>
+    Array(Container &container) : Array(container.data(), container.size())
+    {
+        width = 1;
+    }
+
+    /** The points of a container, one an item. */
+    template <class Container, class P = std::remove_pointer_t<decltype(
+                                   std::declval<Container &>().data())>,
+              class = typename P::value_type, class = void>
+    Array(Container &container)
+        : Array(container.empty() ? nullptr : container.data()->data(), container.size())
+    {
+        width = std::tuple_size<P>::value;
+    }
+};
+
 namespace detail {
 
 /** Calls the caller's function, and keeps what it throws until the library has returned. */
@@ -140,27 +176,20 @@ void run(const Options &options, Call call)
     check(status);
 }
 
+/** A handle of the library, which frees it. */
 template <class Handle, void (*free_handle)(Handle *)>
-struct Free {
-    void operator()(Handle *handle) const noexcept { free_handle(handle); }
-};
-
-template <class Handle, void (*free_handle)(Handle *)>
-using Owned = std::unique_ptr<Handle, Free<Handle, free_handle>>;
+using Owned = std::unique_ptr<Handle, std::integral_constant<void (*)(Handle *), free_handle>>;
 
 using PathsHandle = Owned<hp_paths, hp_paths_free>;
 using GraphHandle = Owned<hp_graph, hp_graph_free>;
 
-template <std::size_t N>
-const double *coordinates(const Points<N> &points)
+/** As run(); the handle that the call makes. */
+template <class Handle, class Options, class Call>
+Handle make(const Options &options, Call call)
 {
-    return points.empty() ? nullptr : points.front().data();
-}
-
-template <std::size_t N>
-double *coordinates(Points<N> &points)
-{
-    return points.empty() ? nullptr : points.front().data();
+    typename Handle::pointer handle = nullptr;
+    run(options, [&](auto *plain) { return call(plain, &handle); });
+    return Handle(handle);
 }
 
 /* A buffer that was described is wanted, also if it is empty: then it is refused. */
@@ -175,6 +204,24 @@ inline void check_dimension(const Buffer &image, std::size_t of_points)
         throw std::invalid_argument("heatpath: points have " + std::to_string(of_points) +
                                     " coordinates, but the image has " +
                                     std::to_string(image.dimension) + " axes");
+}
+
+/* The coordinates of points of an image with as many axes. */
+template <std::size_t N>
+const double *coordinates(const Buffer &image, const Points<N> &points)
+{
+    check_dimension(image, N);
+    return points.empty() ? nullptr : points.front().data();
+}
+
+/* The list, if its items have so many numbers as the library will read. */
+inline const Array &with_width(const Array &list, std::size_t width, const char *name)
+{
+    if (list.width != 0 && list.width != width)
+        throw std::invalid_argument("heatpath: " + std::string(name) + " need " +
+                                    std::to_string(width) + " numbers an item, but there are " +
+                                    std::to_string(list.width));
+    return list;
 }
 
 } // namespace detail
@@ -235,7 +282,7 @@ std::vector<Path<N>> collect(const hp_paths *handle)
         paths[i].info.struct_size = sizeof(hp_path_info);
         check(hp_paths_info(handle, i, &paths[i].info));
         paths[i].points.resize(paths[i].info.point_count);
-        check(hp_paths_points(handle, i, coordinates(paths[i].points), paths[i].points.size()));
+        check(hp_paths_points(handle, i, paths[i].points.front().data(), paths[i].points.size()));
     }
     return paths;
 }
@@ -258,12 +305,12 @@ Graph<N> collect(const hp_graph *handle)
         check(hp_graph_branch_at(handle, i, &branch.info));
         branch.points.resize(branch.info.point_count);
         branch.radii.resize(branch.info.point_count);
-        check(hp_graph_branch_points(handle, i, coordinates(branch.points), branch.radii.data(),
+        check(hp_graph_branch_points(handle, i, branch.points.front().data(), branch.radii.data(),
                                      branch.points.size()));
     }
     graph.sources.resize(graph.info.source_count);
     if (!graph.sources.empty())
-        check(hp_graph_sources(handle, coordinates(graph.sources), graph.sources.size()));
+        check(hp_graph_sources(handle, graph.sources.front().data(), graph.sources.size()));
     return graph;
 }
 
@@ -274,9 +321,8 @@ template <std::size_t N>
 void distance(const Buffer &image, const Points<N> &sources, const Buffer &result,
               const Options &options = {}, const Buffer &mask = {})
 {
-    detail::check_dimension(image, N);
     detail::run(options, [&](const hp_options *plain) {
-        return hp_distance(&image, detail::optional(mask), detail::coordinates(sources),
+        return hp_distance(&image, detail::optional(mask), detail::coordinates(image, sources),
                            sources.size(), plain, &result);
     });
 }
@@ -299,9 +345,8 @@ template <std::size_t N>
 void medium(const Buffer &image, const Points<N> &sources, const Buffer &result,
             const Options &options = {}, const Buffer &mask = {})
 {
-    detail::check_dimension(image, N);
     detail::run(options, [&](const hp_options *plain) {
-        return hp_medium(&image, detail::optional(mask), detail::coordinates(sources),
+        return hp_medium(&image, detail::optional(mask), detail::coordinates(image, sources),
                          sources.size(), plain, &result);
     });
 }
@@ -311,14 +356,11 @@ template <std::size_t N>
 std::vector<Path<N>> paths(const Buffer &image, const Points<N> &sources, const Points<N> &ends,
                            const Options &options = {}, const Buffer &mask = {})
 {
-    detail::check_dimension(image, N);
-    hp_paths *handle = nullptr;
-    detail::run(options, [&](const hp_options *plain) {
-        return hp_paths_create(&image, detail::optional(mask), detail::coordinates(sources),
-                               sources.size(), detail::coordinates(ends), ends.size(), plain,
-                               &handle);
+    const auto handle = detail::make<detail::PathsHandle>(options, [&](auto *plain, auto **made) {
+        return hp_paths_create(&image, detail::optional(mask), detail::coordinates(image, sources),
+                               sources.size(), detail::coordinates(image, ends), ends.size(), plain, made);
     });
-    return detail::collect<N>(detail::PathsHandle(handle).get());
+    return detail::collect<N>(handle.get());
 }
 
 /** Where the results of Solver::nearest() go; what is left out is not wanted. */
@@ -335,11 +377,9 @@ public:
     explicit Solver(const Buffer &image, const Options &options, const Buffer &mask = {})
         : image_(image)
     {
-        hp_solver *handle = nullptr;
-        detail::run(options, [&](const hp_options *plain) {
-            return hp_solver_create(&image, detail::optional(mask), plain, &handle);
+        handle_ = detail::make<decltype(handle_)>(options, [&](auto *plain, auto **made) {
+            return hp_solver_create(&image, detail::optional(mask), plain, made);
         });
-        handle_.reset(handle);
     }
 
     /** One map for each source, the first one in result; see hp_solver_distances(). */
@@ -347,9 +387,8 @@ public:
     void distances(const Points<N> &sources, const Buffer &result, const Options &options = {},
                    std::int64_t map_stride = 0) const
     {
-        detail::check_dimension(image_, N);
         detail::run(options, [&](const hp_options *plain) {
-            return hp_solver_distances(get(), detail::coordinates(sources), sources.size(), plain,
+            return hp_solver_distances(get(), detail::coordinates(image_, sources), sources.size(), plain,
                                        &result, map_stride);
         });
     }
@@ -358,13 +397,11 @@ public:
     template <std::size_t N>
     std::vector<Path<N>> paths(const Points<N> &sources, const Points<N> &ends, const Options &options = {}) const
     {
-        detail::check_dimension(image_, N);
-        hp_paths *handle = nullptr;
-        detail::run(options, [&](const hp_options *plain) {
-            return hp_solver_paths_create(get(), detail::coordinates(sources), sources.size(),
-                                          detail::coordinates(ends), ends.size(), plain, &handle);
+        const auto handle = detail::make<detail::PathsHandle>(options, [&](auto *plain, auto **made) {
+            return hp_solver_paths_create(get(), detail::coordinates(image_, sources), sources.size(),
+                                          detail::coordinates(image_, ends), ends.size(), plain, made);
         });
-        return detail::collect<N>(detail::PathsHandle(handle).get());
+        return detail::collect<N>(handle.get());
     }
 
     /** How far every pixel is from the nearest source, and which one that is; see
@@ -372,9 +409,8 @@ public:
     template <std::size_t N>
     void nearest(const Points<N> &sources, const NearestMaps &maps, const Options &options = {}) const
     {
-        detail::check_dimension(image_, N);
         detail::run(options, [&](const hp_options *plain) {
-            return hp_solver_nearest(get(), detail::coordinates(sources), sources.size(), plain,
+            return hp_solver_nearest(get(), detail::coordinates(image_, sources), sources.size(), plain,
                                      detail::optional(maps.distance), detail::optional(maps.labels),
                                      detail::optional(maps.shares), maps.share_stride);
         });
@@ -383,17 +419,25 @@ public:
     /** The distance from each point to each of others, row by row; see hp_solver_matrix(). */
     template <std::size_t N>
     std::vector<double> matrix(const Points<N> &from, const Points<N> &to,
-                               const Options &options = {}) const;
+                               const Options &options = {}) const
+    {
+        std::vector<double> distances(from.size() * to.size());
+        const Array row(distances.data(), to.size());
+        detail::run(options, [&](const hp_options *plain) {
+            return hp_solver_matrix(get(), detail::coordinates(image_, from), from.size(),
+                                    detail::coordinates(image_, to), to.size(), plain, &row, 0);
+        });
+        return distances;
+    }
 
     /** Where heat passes on its way from one end to the other; see hp_solver_bridge(). */
     template <std::size_t N>
     void bridge(const Points<N> &from, const Points<N> &to, const Buffer &ln_density,
                 const Options &options = {}) const
     {
-        detail::check_dimension(image_, N);
         detail::run(options, [&](const hp_options *plain) {
-            return hp_solver_bridge(get(), detail::coordinates(from), from.size(),
-                                    detail::coordinates(to), to.size(), plain, &ln_density);
+            return hp_solver_bridge(get(), detail::coordinates(image_, from), from.size(),
+                                    detail::coordinates(image_, to), to.size(), plain, &ln_density);
         });
     }
 
@@ -416,14 +460,12 @@ Graph<N> votes(const Buffer &image, const Points<N> &sources = {}, const Options
                const VoteOptions &vote_options = {}, const VoteMaps &maps = {},
                const Buffer &mask = {})
 {
-    detail::check_dimension(image, N);
-    hp_graph *handle = nullptr;
-    detail::run(options, [&](const hp_options *plain) {
-        return hp_votes_create(&image, detail::optional(mask), detail::coordinates(sources),
+    const auto handle = detail::make<detail::GraphHandle>(options, [&](auto *plain, auto **made) {
+        return hp_votes_create(&image, detail::optional(mask), detail::coordinates(image, sources),
                                sources.size(), plain, &vote_options, detail::optional(maps.density),
-                               detail::optional(maps.kept), &handle);
+                               detail::optional(maps.kept), made);
     });
-    return detail::collect<N>(detail::GraphHandle(handle).get());
+    return detail::collect<N>(handle.get());
 }
 
 /** The curves of an image, from key point to key point; see hp_key_points_create(). */
@@ -431,13 +473,11 @@ template <std::size_t N>
 Graph<N> key_points(const Buffer &image, const Points<N> &sources = {}, const Options &options = {},
                     const KeyPointOptions &key_point_options = {}, const Buffer &mask = {})
 {
-    detail::check_dimension(image, N);
-    hp_graph *handle = nullptr;
-    detail::run(options, [&](const hp_options *plain) {
-        return hp_key_points_create(&image, detail::optional(mask), detail::coordinates(sources),
-                                    sources.size(), plain, &key_point_options, &handle);
+    const auto handle = detail::make<detail::GraphHandle>(options, [&](auto *plain, auto **made) {
+        return hp_key_points_create(&image, detail::optional(mask), detail::coordinates(image, sources),
+                                    sources.size(), plain, &key_point_options, made);
     });
-    return detail::collect<N>(detail::GraphHandle(handle).get());
+    return detail::collect<N>(handle.get());
 }
 
 /** The centreline of a mask with radii; see hp_skeleton_create(). */
@@ -449,70 +489,6 @@ Graph<N> skeleton(const Buffer &mask, double prune = 0)
     check(hp_skeleton_create(&mask, prune, &handle));
     return detail::collect<N>(detail::GraphHandle(handle).get());
 }
-
-/** Described items, see hp_array; the fields can be changed. */
-struct Array : hp_array {
-    /** How many numbers an item has, so that no more are read; 0 if only the caller knows. */
-    std::size_t width = 0;
-
-    Array() { check(hp_array_init(this, sizeof(hp_array))); }
-
-    /** Items without gaps; an item may be several numbers. Input is only read. */
-    template <class T>
-    Array(T *items, std::size_t item_count) : Array()
-    {
-        data = const_cast<std::remove_const_t<T> *>(items);
-        type = type_of<T>();
-        count = item_count;
-    }
-
-    /** The numbers of a container, one an item. */
-    template <class Container, class T = std::remove_pointer_t<decltype(
-                                   std::declval<Container &>().data())>,
-              class = std::enable_if_t<std::is_arithmetic_v<T>>>
-    Array(Container &container) : Array(container.data(), container.size())
-    {
-        width = 1;
-    }
-
-    /** The points of a container, one an item. */
-    template <class Container, class P = std::remove_pointer_t<decltype(
-                                   std::declval<Container &>().data())>,
-              class = typename P::value_type, class = void>
-    Array(Container &container)
-        : Array(container.empty() ? nullptr : container.data()->data(), container.size())
-    {
-        width = std::tuple_size<P>::value;
-    }
-};
-
-template <std::size_t N>
-std::vector<double> Solver::matrix(const Points<N> &from, const Points<N> &to,
-                                   const Options &options) const
-{
-    detail::check_dimension(image_, N);
-    std::vector<double> distances(from.size() * to.size());
-    const Array row(distances.data(), to.size());
-    detail::run(options, [&](const hp_options *plain) {
-        return hp_solver_matrix(get(), detail::coordinates(from), from.size(),
-                                detail::coordinates(to), to.size(), plain, &row, 0);
-    });
-    return distances;
-}
-
-namespace detail {
-
-/* The list, if its items have so many numbers as the library will read. */
-inline const Array &with_width(const Array &list, std::size_t width, const char *name)
-{
-    if (list.width != 0 && list.width != width)
-        throw std::invalid_argument("heatpath: " + std::string(name) + " need " +
-                                    std::to_string(width) + " numbers an item, but there are " +
-                                    std::to_string(list.width));
-    return list;
-}
-
-} // namespace detail
 
 /** Curves to compare: polylines one after the other, or the pixels of a mask; see hp_curves. */
 class Curves {
@@ -780,11 +756,9 @@ private:
         detail::with_width(faces, starts ? 1 : 3, starts ? "corners" : "faces");
         if (starts)
             detail::with_width(*starts, 1, "starts");
-        hp_mesh *handle = nullptr;
-        detail::run(options, [&](const hp_mesh_options *plain) {
-            return hp_mesh_create(&points, &faces, starts, plain, &handle);
+        handle_ = detail::make<decltype(handle_)>(options, [&](auto *plain, auto **made) {
+            return hp_mesh_create(&points, &faces, starts, plain, made);
         });
-        handle_.reset(handle);
     }
 
     detail::Owned<hp_mesh, hp_mesh_free> handle_;
@@ -796,11 +770,9 @@ public:
     explicit MeshSolver(const Mesh &mesh, const MeshOptions &options = {})
         : vertices_(mesh.report().vertices)
     {
-        hp_mesh_solver *handle = nullptr;
-        detail::run(options, [&](const hp_mesh_options *plain) {
-            return hp_mesh_solver_create(mesh.get(), plain, &handle);
+        handle_ = detail::make<decltype(handle_)>(options, [&](auto *plain, auto **made) {
+            return hp_mesh_solver_create(mesh.get(), plain, made);
         });
-        handle_.reset(handle);
     }
 
     /** The distance of every vertex from the nearest source; see hp_mesh_solver_distances(). */
@@ -839,24 +811,22 @@ public:
     /** The path through some points in their order; see hp_mesh_paths_through(). */
     SurfacePath through(const SurfacePoints &points, const MeshOptions &options = {}) const
     {
-        hp_paths *handle = nullptr;
         const hp_surface_points places = points.plain();
-        detail::run(options, [&](const hp_mesh_options *plain) {
-            return hp_mesh_paths_through(get(), &places, plain, &handle);
+        const auto handle = detail::make<detail::PathsHandle>(options, [&](auto *plain, auto **made) {
+            return hp_mesh_paths_through(get(), &places, plain, made);
         });
-        return detail::collect_surface(detail::PathsHandle(handle).get()).front();
+        return detail::collect_surface(handle.get()).front();
     }
 
     /** The shortest path from each end to a source; see hp_mesh_paths_create(). */
     std::vector<SurfacePath> paths(const SurfacePoints &sources, const SurfacePoints &ends,
                                const MeshOptions &options = {}) const
     {
-        hp_paths *handle = nullptr;
         const hp_surface_points from = sources.plain(), to = ends.plain();
-        detail::run(options, [&](const hp_mesh_options *plain) {
-            return hp_mesh_paths_create(get(), &from, &to, plain, &handle);
+        const auto handle = detail::make<detail::PathsHandle>(options, [&](auto *plain, auto **made) {
+            return hp_mesh_paths_create(get(), &from, &to, plain, made);
         });
-        return detail::collect_surface(detail::PathsHandle(handle).get());
+        return detail::collect_surface(handle.get());
     }
 
     const hp_mesh_solver *get() const { return handle_.get(); }
@@ -872,10 +842,10 @@ private:
 
 /* What follows is read again by each include, once there is something to adapt to. */
 
+namespace heatpath {
+
 #if defined(OPENCV_CORE_HPP) && !defined(HEATPATH_HPP_OPENCV)
 #define HEATPATH_HPP_OPENCV
-
-namespace heatpath {
 
 /** The HP_ constant for a depth of OpenCV, such as CV_8U; 0 if there is none. */
 inline std::uint32_t type_of_depth(int depth)
@@ -909,14 +879,10 @@ inline Buffer buffer(const cv::Mat &mat, int channel = 0)
     return buffer;
 }
 
-} // namespace heatpath
-
 #endif
 
 #if (defined(vtkImageData_h) || defined(vtkPolyData_h)) && !defined(HEATPATH_HPP_VTK)
 #define HEATPATH_HPP_VTK
-
-namespace heatpath {
 
 /** The HP_ constant for a type of VTK, such as VTK_SHORT; 0 if there is none. */
 inline std::uint32_t type_of_vtk(int type)
@@ -940,14 +906,10 @@ inline std::uint32_t type_of_vtk(int type)
     }
 }
 
-} // namespace heatpath
-
 #endif
 
 #if defined(vtkImageData_h) && !defined(HEATPATH_HPP_VTK_IMAGE)
 #define HEATPATH_HPP_VTK_IMAGE
-
-namespace heatpath {
 
 /** The scalars of a VTK image with its spacing; of several components the given one. Pixel 0, 0, 0 is the
  * first one of the extent. Flat in z it is a picture; flat in x or y a volume one voxel thick. */
@@ -972,14 +934,10 @@ inline Buffer buffer(vtkImageData *image, int component = 0)
     return buffer;
 }
 
-} // namespace heatpath
-
 #endif
 
 #if defined(vtkPolyData_h) && !defined(HEATPATH_HPP_VTK_MESH)
 #define HEATPATH_HPP_VTK_MESH
-
-namespace heatpath {
 
 /** The tuples of a VTK array: the points of a mesh, or a number for each vertex. */
 inline Array array(vtkDataArray *tuples)
@@ -1006,14 +964,10 @@ inline Mesh mesh(vtkPolyData *surface, const MeshOptions &options = {})
                 array(polygons->GetOffsetsArray()), options);
 }
 
-} // namespace heatpath
-
 #endif
 
 #if defined(itkImage_h) && !defined(HEATPATH_HPP_ITK)
 #define HEATPATH_HPP_ITK
-
-namespace heatpath {
 
 /** The buffered region of an ITK image with its spacing. Pixel 0, 0, 0 is the first one of the region. */
 template <class Pixel, unsigned int N>
@@ -1032,6 +986,6 @@ Buffer buffer(itk::Image<Pixel, N> *image)
     return buffer;
 }
 
-} // namespace heatpath
-
 #endif
+
+} // namespace heatpath
