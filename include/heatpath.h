@@ -1255,8 +1255,8 @@ hp_status hp_solver_create(const struct hp_buffer *image,
  * sources: source_count points, as for hp_distance().
  *
  * options: only estimator, threads, progress and user count here, and of a solver made with
- * HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL for the
- * defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
+ * HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL
+ * for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
  * depend on how many there are.
  *
  * distances: describes the first map, as for hp_distance().

@@ -45,14 +45,13 @@ fn evaluate_in<const D: usize>(
     truth: Given,
 ) -> Result<(), Failure> {
     let view = args.mask.as_ref().map(ImageFile::read).transpose()?;
-    let view_path = args.mask.as_deref().unwrap_or(Path::new(""));
     let files = [
-        (args.truth.as_path(), truth.file()),
-        (args.extracted.as_path(), extracted.file()),
-        (view_path, view.as_ref()),
+        truth.file().map(|file| (args.truth.as_path(), file)),
+        extracted.file().map(|file| (args.extracted.as_path(), file)),
+        args.mask.as_deref().zip(view.as_ref()),
     ];
     let places: Vec<Place<'_, D>> =
-        files.into_iter().filter_map(|(path, file)| Place::of(path, file?)).collect();
+        files.into_iter().flatten().filter_map(|(path, file)| Place::of(path, file)).collect();
     let spacing = match &args.spacing {
         Some(spacing) => coordinates("spacing", spacing)?,
         None => places.first().map_or([1.0; D], |place| place.spacing),

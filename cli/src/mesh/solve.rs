@@ -99,9 +99,8 @@ impl Solver {
     ) -> Result<(DistanceMap, Vec<Path>), Failure> {
         let mesh = self.geodesics.medium().mesh();
         let legs = route.via.len() + 1;
-        let part = |leg: usize| exec.part(leg as f64 / legs as f64, (leg + 1) as f64 / legs as f64);
         let leg = |number: usize, sources: &Sources, starts: &[SurfacePoint]| {
-            let (map, paths) = self.geodesics.paths(sources, starts, &part(number))?;
+            let (map, paths) = self.geodesics.paths(sources, starts, &exec.piece(number, legs))?;
             let paths = paths.into_iter().map(|path| shortened(mesh, path, route.shorten));
             Ok::<_, Failure>((map, paths.collect::<Result<Vec<Path>, Failure>>()?))
         };

@@ -1,13 +1,12 @@
 //! Where heat passes on its way between two points.
 
 use crate::buffer::hp_buffer;
-use crate::handles::borrow;
 use crate::options::hp_options;
 use crate::pixels;
 use crate::prepared::Prepared;
 use crate::problem::read_points;
 use crate::settings::Settings;
-use crate::solver::{AnyDimension, hp_solver};
+use crate::solver::{hp_solver, in_medium};
 use crate::status::{Failure, guard, hp_status};
 use crate::view::View;
 use heatpath_core::grid::bridge::bridge;
@@ -44,18 +43,11 @@ pub unsafe extern "C" fn hp_solver_bridge(
     // SAFETY: the caller's promise.
     guard(|| unsafe {
         let settings = Settings::read(options)?;
-        match &borrow(solver, "solver")?.medium {
-            AnyDimension::Two(prepared) => {
-                let from = read_points(from, from_count, "from")?;
-                let ends = [from, read_points(to, to_count, "to")?];
-                write_bridge(prepared, &ends, &settings, ln_density)
-            }
-            AnyDimension::Three(prepared) => {
-                let from = read_points(from, from_count, "from")?;
-                let ends = [from, read_points(to, to_count, "to")?];
-                write_bridge(prepared, &ends, &settings, ln_density)
-            }
-        }
+        in_medium!(solver, prepared => {
+            let from = read_points(from, from_count, "from")?;
+            let ends = [from, read_points(to, to_count, "to")?];
+            write_bridge(prepared, &ends, &settings, ln_density)
+        })
     })
 }
 

@@ -4,6 +4,7 @@ use crate::buffer::hp_buffer;
 use crate::options::hp_options;
 use crate::pixels;
 use crate::problem::{Arguments, Problem};
+use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
 use crate::view::{self, View};
 
@@ -58,11 +59,14 @@ unsafe fn write_distance<const D: usize>(
     let target = unsafe { View::<D>::read(distance, "distance")? };
     pixels::check_writable(&target)?;
     // SAFETY: the caller's promise.
-    let problem = unsafe { Problem::<D>::read(arguments)? };
+    let settings = unsafe { Settings::read(arguments.options)? };
+    let exec = settings.run.exec()?;
+    // SAFETY: the caller's promise.
+    let problem = unsafe { Problem::<D>::read(arguments, &settings, &exec)? };
     target.check_size(problem.mask().shape())?;
-    let (prepared, exec) = problem.prepare(1.0)?;
-    let solved = prepared.solve(&problem.sources, &[], problem.settings.readout, &exec)?;
-    problem.settings.run.finish()?;
+    let (prepared, rest) = problem.prepare(settings.approach, &exec)?;
+    let solved = prepared.solve(&problem.sources, &[], settings.readout, &rest)?;
+    settings.run.finish()?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
     unsafe { pixels::write(&target, solved.distances.field().values()) };
     Ok(())

@@ -1,13 +1,13 @@
 //! Distances between many points.
 
 use crate::array::hp_array;
-use crate::handles::borrow;
 use crate::items::Items;
 use crate::options::hp_options;
 use crate::prepared::Prepared;
 use crate::problem::read_points;
+use crate::run::rounds;
 use crate::settings::Settings;
-use crate::solver::{AnyDimension, hp_solver};
+use crate::solver::{hp_solver, in_medium};
 use crate::status::{Failure, guard, hp_status};
 use heatpath_core::grid::{Sources, check_points};
 
@@ -47,16 +47,10 @@ pub unsafe extern "C" fn hp_solver_matrix(
     // SAFETY: the caller's promise.
     guard(|| unsafe {
         let settings = Settings::read(options)?;
-        match &borrow(solver, "solver")?.medium {
-            AnyDimension::Two(prepared) => {
-                let from = read_points(from, from_count, "from")?;
-                write_rows(prepared, &from, &read_points(to, to_count, "to")?, &settings, rows)
-            }
-            AnyDimension::Three(prepared) => {
-                let from = read_points(from, from_count, "from")?;
-                write_rows(prepared, &from, &read_points(to, to_count, "to")?, &settings, rows)
-            }
-        }
+        in_medium!(solver, prepared => {
+            let from = read_points(from, from_count, "from")?;
+            write_rows(prepared, &from, &read_points(to, to_count, "to")?, &settings, rows)
+        })
     })
 }
 
@@ -79,8 +73,8 @@ unsafe fn write_rows<const D: usize>(
         Items::<1>::target(distances, "distances", false, to.points().len(), rows)?
     };
     let exec = settings.run.exec()?;
-    for round in settings.run.rounds(from.len(), prepared.round(exec.threads()), 1.0) {
-        let places = round?;
+    for round in rounds(&exec, from.len(), prepared.round(exec.threads())) {
+        let (places, exec) = round?;
         let from = Sources::new(&from[places.clone()], mask)?;
         let rows = prepared.matrix(&from, &to, settings.readout, &exec)?;
         for (place, row) in places.zip(rows) {

@@ -58,7 +58,7 @@ unsafe fn write<const D: usize>(
     if !sources.is_empty() {
         check_points("source", sources, &scene.mask)?;
     }
-    let medium = scene.medium(&settings.recipe, sources, 1.0)?;
+    let medium = scene.medium(&settings.recipe, sources, &settings.run.exec()?)?;
     settings.run.finish()?;
     // SAFETY: the caller promises that the pixels can be written; their type was checked.
     unsafe { pixels::write(&target, medium.speed_sq_field().values()) };

@@ -1,13 +1,13 @@
 //! Which of several sources is the nearest.
 
 use crate::buffer::hp_buffer;
-use crate::handles::borrow;
 use crate::options::hp_options;
 use crate::pixels;
 use crate::prepared::Prepared;
 use crate::problem::read_points;
+use crate::scene::has_memory;
 use crate::settings::Settings;
-use crate::solver::{AnyDimension, hp_solver};
+use crate::solver::{hp_solver, in_medium};
 use crate::status::{Failure, HP_OUT_OF_MEMORY, guard, hp_status};
 use crate::view::View;
 use heatpath_core::grid::distance::DistanceMap;
@@ -55,16 +55,10 @@ pub unsafe extern "C" fn hp_solver_nearest(
     // SAFETY: the caller's promise.
     guard(|| unsafe {
         let settings = Settings::read(options)?;
-        match &borrow(solver, "solver")?.medium {
-            AnyDimension::Two(prepared) => {
-                let points = read_points(sources, source_count, "sources")?;
-                write_nearest(prepared, &points, &settings, &wanted)
-            }
-            AnyDimension::Three(prepared) => {
-                let points = read_points(sources, source_count, "sources")?;
-                write_nearest(prepared, &points, &settings, &wanted)
-            }
-        }
+        in_medium!(solver, prepared => {
+            let points = read_points(sources, source_count, "sources")?;
+            write_nearest(prepared, &points, &settings, &wanted)
+        })
     })
 }
 
@@ -168,17 +162,21 @@ impl<const D: usize> Found<D> {
         targets: &Targets<D>,
     ) -> Result<Self, Failure> {
         let wants_labels = targets.labels.is_some() || targets.shares.is_some();
+        let label_end = match (wants_labels, targets.distance.is_some()) {
+            (true, true) => LABEL_SHARE,
+            (true, false) => 1.0,
+            (false, _) => 0.0,
+        };
+        let exec = settings.run.exec()?;
         let (mut distance, mut labels) = (None, None);
         if wants_labels {
             check_labels(prepared, sources.points().len(), targets.shares.is_some())?;
-            let end = if targets.distance.is_some() { LABEL_SHARE } else { 1.0 };
-            let nearest = prepared.nearest(sources, &settings.run, end)?;
+            let nearest = prepared.nearest(sources, &exec.part(0.0, label_end))?;
             (labels, distance) = (Some(nearest.0), nearest.1);
         }
         if targets.distance.is_some() && distance.is_none() {
-            settings.run.part(if wants_labels { LABEL_SHARE } else { 0.0 }, 1.0)?;
-            let exec = settings.run.exec()?;
-            let solved = prepared.solve(sources, &[], settings.readout, &exec)?;
+            let rest = exec.part(label_end, 1.0);
+            let solved = prepared.solve(sources, &[], settings.readout, &rest)?;
             distance = Some(solved.distances);
         }
         Ok(Self { distance: distance.map(DistanceMap::into_field), labels })
@@ -210,7 +208,7 @@ fn check_labels<const D: usize>(
 fn check_memory<const D: usize>(prepared: &Prepared<D>, sources: usize) -> Result<(), Failure> {
     let cells = prepared.medium().shape().cells();
     let bytes = cells.checked_mul(BYTES).and_then(|bytes| bytes.checked_mul(sources));
-    if bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok()) {
+    if has_memory(bytes) {
         return Ok(());
     }
     Err(Failure::new(

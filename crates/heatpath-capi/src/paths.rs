@@ -141,13 +141,16 @@ unsafe fn trace<const D: usize>(
     ends: &[[f64; D]],
 ) -> Result<Vec<Traced>, Failure> {
     // SAFETY: the caller's promise.
-    let problem = unsafe { Problem::<D>::read(arguments)? };
+    let settings = unsafe { Settings::read(arguments.options)? };
+    let exec = settings.run.exec()?;
+    // SAFETY: the caller's promise.
+    let problem = unsafe { Problem::<D>::read(arguments, &settings, &exec)? };
     check_points("end", ends, problem.mask())?;
-    let (prepared, exec) = problem.prepare(DISTANCE_SHARE)?;
-    trace_prepared(&prepared, &problem.sources, ends, &problem.settings, &exec)
+    let (prepared, rest) = problem.prepare(settings.approach, &exec)?;
+    trace_prepared(&prepared, &problem.sources, ends, &settings, &rest)
 }
 
-/// The paths from `ends` to the `sources`. What `exec` reports is the part of the distances.
+/// The paths from `ends` to the `sources`.
 pub(crate) fn trace_prepared<const D: usize>(
     prepared: &Prepared<D>,
     sources: &Sources<D>,
@@ -155,12 +158,13 @@ pub(crate) fn trace_prepared<const D: usize>(
     settings: &Settings,
     exec: &Exec,
 ) -> Result<Vec<Traced>, Failure> {
-    let solved = prepared.solve(sources, ends, settings.readout, exec)?;
+    let distances = exec.part(0.0, DISTANCE_SHARE);
+    let solved = prepared.solve(sources, ends, settings.readout, &distances)?;
     let descent = prepared.descent(sources, &solved)?;
     let mut paths = Vec::with_capacity(ends.len());
-    settings.run.part(DISTANCE_SHARE, 1.0)?;
+    let tracing = exec.part(DISTANCE_SHARE, 1.0);
     for (number, &end) in ends.iter().enumerate() {
-        settings.run.check(number as f64 / ends.len() as f64)?;
+        tracing.report(number as f64 / ends.len() as f64)?;
         paths.push(Traced::new(&descent.path(end, &solved.distances, PathOptions::default())?));
     }
     settings.run.finish()?;

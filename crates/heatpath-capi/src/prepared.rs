@@ -1,7 +1,7 @@
 //! Media made ready for distances from any sources, by any method.
 
 use crate::heat::{PreparedHeat, Readout, Solver};
-use crate::run::Run;
+use crate::run::rounds;
 use crate::status::{Failure, HP_PANIC};
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
@@ -133,19 +133,18 @@ impl<'a, const D: usize> Prepared<'a, D> {
 
 impl<const D: usize> Prepared<'_, D> {
     /// Which of the sources each cell is nearest to, with shares if heat tells, and their distances if
-    /// they were found on the way. This is the work up to `end`.
+    /// they were found on the way.
     pub(crate) fn nearest(
         &self,
         sources: &Sources<D>,
-        run: &Run,
-        end: f64,
+        exec: &Exec,
     ) -> Result<(Labels<D>, Option<DistanceMap<D>>), Failure> {
-        let exec = run.exec()?;
         match self {
             Self::Heat(prepared) => {
                 let (sets, mut heats) = (sources.each(), Vec::new());
-                for round in run.rounds(sets.len(), self.round(exec.threads()), end) {
-                    heats.extend(prepared.flow_each(&sets[round?], &exec)?);
+                for round in rounds(exec, sets.len(), self.round(exec.threads())) {
+                    let (places, exec) = round?;
+                    heats.extend(prepared.flow_each(&sets[places], &exec)?);
                 }
                 // There is a heat for each source, all on one grid.
                 let labels = labels(&heats).ok_or_else(|| Failure::new(HP_PANIC, "no labels"))?;
@@ -153,7 +152,7 @@ impl<const D: usize> Prepared<'_, D> {
             }
             Self::Eikonal { eikonal, farthest } => {
                 let options = EikonalOptions { farthest: *farthest, ..EikonalOptions::default() };
-                let (map, nearest) = eikonal.distance_and_nearest(sources, &options, &exec)?;
+                let (map, nearest) = eikonal.distance_and_nearest(sources, &options, exec)?;
                 Ok((Labels { nearest, shares: Vec::new() }, Some(map)))
             }
             Self::HeatMethod(_) => Err(Failure::argument(

@@ -2,7 +2,7 @@
 
 use crate::buffer::hp_buffer;
 use crate::options::hp_options;
-use crate::prepared::Prepared;
+use crate::prepared::{Approach, Prepared};
 use crate::scene::{MEDIUM_SHARE, Scene};
 use crate::settings::Settings;
 use crate::status::{Failure, HP_OUT_OF_MEMORY};
@@ -24,24 +24,27 @@ pub(crate) struct Arguments {
 pub(crate) struct Problem<const D: usize> {
     medium: Medium<D>,
     pub(crate) sources: Sources<D>,
-    pub(crate) settings: Settings,
 }
 
 impl<const D: usize> Problem<D> {
-    /// Reads and checks everything.
+    /// Reads and checks everything but the options.
     ///
     /// # Safety
     /// The pointers are NULL, misaligned, or point to what the header asks for.
-    pub(crate) unsafe fn read(arguments: &Arguments) -> Result<Self, Failure> {
+    pub(crate) unsafe fn read(
+        arguments: &Arguments,
+        settings: &Settings,
+        exec: &Exec,
+    ) -> Result<Self, Failure> {
         // SAFETY: the caller's promise, for each of the pointers.
         unsafe {
-            let settings = Settings::read(arguments.options)?;
             let image = View::read(arguments.image, "image")?;
             let points = read_points(arguments.sources, arguments.source_count, "sources")?;
-            let scene = Scene::read(&image, arguments.mask, &settings)?;
+            let scene = Scene::read(&image, arguments.mask, settings)?;
             let sources = Sources::new(&points, &scene.mask)?;
-            let medium = scene.medium(&settings.recipe, sources.points(), MEDIUM_SHARE)?;
-            Ok(Self { medium, sources, settings })
+            let exec = exec.part(0.0, MEDIUM_SHARE);
+            let medium = scene.medium(&settings.recipe, sources.points(), &exec)?;
+            Ok(Self { medium, sources })
         }
     }
 
@@ -49,11 +52,14 @@ impl<const D: usize> Problem<D> {
         self.medium.mask()
     }
 
-    /// Makes the medium ready. That and what follows is the work up to `end`, for the progress.
-    pub(crate) fn prepare(&self, end: f64) -> Result<(Prepared<'_, D>, Exec<'_>), Failure> {
-        self.settings.run.part(MEDIUM_SHARE, end)?;
-        let exec = self.settings.run.exec()?;
-        Ok((Prepared::new(&self.medium, self.settings.approach, &exec)?, exec))
+    /// Makes the medium ready, and what the rest of the work runs on.
+    pub(crate) fn prepare<'a>(
+        &'a self,
+        approach: Approach,
+        exec: &'a Exec<'_>,
+    ) -> Result<(Prepared<'a, D>, Exec<'a>), Failure> {
+        let rest = exec.part(MEDIUM_SHARE, 1.0);
+        Ok((Prepared::new(&self.medium, approach, &rest)?, rest))
     }
 }
 

@@ -7,15 +7,12 @@ use heatpath_core::exec::Cancelled;
 use std::ffi::c_void;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// A call of the library: its threads and the caller's callback.
 pub(crate) struct Run {
     threads: usize,
     callback: hp_progress,
     user: *mut c_void,
-    /// Where in the whole work the current part of it begins and ends.
-    part: Mutex<[f64; 2]>,
     /// The bits of the largest number reported so far.
     furthest: AtomicU64,
 }
@@ -30,11 +27,10 @@ impl Run {
         callback: hp_progress,
         user: *mut c_void,
     ) -> Result<Self, Failure> {
-        let (part, furthest) = (Mutex::new([0.0, 1.0]), AtomicU64::new(0));
-        Ok(Self { threads: check_threads(threads)?, callback, user, part, furthest })
+        Ok(Self { threads: check_threads(threads)?, callback, user, furthest: AtomicU64::new(0) })
     }
 
-    /// Threads that report how far they are in the current part of the work; at first that is all of it.
+    /// The threads, which report how far they are.
     pub(crate) fn exec(&self) -> Result<Exec<'_>, Failure> {
         let exec = match self.threads {
             1 => Exec::single_threaded(),
@@ -43,35 +39,9 @@ impl Run {
         Ok(exec.with_watch(|finished| self.report(finished)))
     }
 
-    /// Makes what follows the part from `begin` to `end` (0 to 1) of the work.
-    pub(crate) fn part(&self, begin: f64, end: f64) -> Result<(), Failure> {
-        *self.part.lock().unwrap_or_else(PoisonError::into_inner) = [begin, end];
-        self.check(0.0)
-    }
-
-    /// Makes work on `count` things, `together` at a time, that many parts up to `end`: the places of
-    /// each.
-    pub(crate) fn rounds(
-        &self,
-        count: usize,
-        together: usize,
-        end: f64,
-    ) -> impl Iterator<Item = Result<Range<usize>, Failure>> + '_ {
-        let share = move |done: usize| end * done as f64 / count as f64;
-        (0..count).step_by(together).map(move |begin| {
-            let places = begin..count.min(begin + together);
-            self.part(share(places.start), share(places.end)).map(|()| places)
-        })
-    }
-
     /// Reports that everything is done.
     pub(crate) fn finish(&self) -> Result<(), Failure> {
-        self.part(1.0, 1.0)
-    }
-
-    /// Reports how much of the current part is finished (0 to 1), and asks whether to go on.
-    pub(crate) fn check(&self, finished: f64) -> Result<(), Failure> {
-        match self.report(finished) {
+        match self.report(1.0) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(Cancelled.into()),
         }
@@ -82,9 +52,8 @@ impl Run {
         let Some(callback) = self.callback else {
             return ControlFlow::Continue(());
         };
-        let [begin, end] = *self.part.lock().unwrap_or_else(PoisonError::into_inner);
         // Numbers that are not negative are in the same order as their bits.
-        let now = (begin + (end - begin) * finished).clamp(0.0, 1.0).to_bits();
+        let now = finished.clamp(0.0, 1.0).to_bits();
         let furthest = self.furthest.fetch_max(now, Ordering::Relaxed).max(now);
         // SAFETY: the caller promises a function that can be called with its `user` until the call
         // of the library returns.
@@ -93,6 +62,20 @@ impl Run {
             _ => ControlFlow::Break(()),
         }
     }
+}
+
+/// Work on `count` things, `together` at a time: the places of each round, and what it runs on.
+pub(crate) fn rounds<'a>(
+    exec: &'a Exec<'_>,
+    count: usize,
+    together: usize,
+) -> impl Iterator<Item = Result<(Range<usize>, Exec<'a>), Cancelled>> {
+    let share = move |done: usize| done as f64 / count as f64;
+    (0..count).step_by(together).map(move |begin| {
+        let places = begin..count.min(begin + together);
+        let round = exec.part(share(places.start), share(places.end));
+        round.report(0.0).map(|()| (places, round))
+    })
 }
 
 /// The caller's number of threads, if it is possible.

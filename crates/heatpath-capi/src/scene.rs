@@ -45,8 +45,7 @@ impl<'a, const D: usize> Scene<'a, D> {
         Ok(Self { image, settings, mask })
     }
 
-    /// The medium of a recipe, with the walls, for `sources` that may not be known yet. It is the first
-    /// `share` of the work.
+    /// The medium of a recipe, with the walls, for `sources` that may not be known yet.
     ///
     /// # Errors
     /// As the engine; or the recipe compares grey values, and there is nothing to compare with.
@@ -56,9 +55,9 @@ impl<'a, const D: usize> Scene<'a, D> {
         &self,
         recipe: &Recipe,
         sources: &[[f64; D]],
-        share: f64,
+        exec: &Exec,
     ) -> Result<Medium<D>, Failure> {
-        self.settings.run.part(0.0, share)?;
+        exec.report(0.0)?;
         let image = self.image;
         let medium = match recipe {
             Recipe::Uniform => Ok(medium::uniform(image.shape)),
@@ -72,13 +71,17 @@ impl<'a, const D: usize> Scene<'a, D> {
                 let field = unsafe { read_tensors(components, count, image.shape)? };
                 medium::given_tensor(field).map_err(|error| Failure::from(error).of("tensor"))
             }
-            of_grey => self.medium_of_grey(of_grey, sources),
+            of_grey => self.medium_of_grey(of_grey, sources, exec),
         };
         Ok(medium?.with_walls(self.mask.clone())?)
     }
 
-    fn medium_of_grey(&self, recipe: &Recipe, sources: &[[f64; D]]) -> Result<Medium<D>, Failure> {
-        let exec = self.settings.run.exec()?;
+    fn medium_of_grey(
+        &self,
+        recipe: &Recipe,
+        sources: &[[f64; D]],
+        exec: &Exec,
+    ) -> Result<Medium<D>, Failure> {
         let grey_end = if self.settings.normalize == 0.0 { 0.0 } else { 0.5 };
         let grey = self.grey(&exec.part(0.0, grey_end))?;
         let exec = exec.part(grey_end, 1.0);
@@ -137,13 +140,17 @@ fn shrunk<const D: usize>(mask: &Mask<D>, margin: f64) -> Result<Mask<D>, Failur
     )))
 }
 
-/// Refuses images so large that the computation would run out of memory, which no library
-/// survives. Nothing is touched: the operating system only says whether it could be had.
+/// Whether there are so many bytes of memory. Nothing is touched: the operating system only says
+/// whether they could be had.
+pub(crate) fn has_memory(bytes: Option<usize>) -> bool {
+    bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
+}
+
+/// Refuses images so large that the computation would run out of memory, which no library survives.
 fn check_memory<const D: usize>(shape: Shape<D>) -> Result<(), Failure> {
     let bytes_per_pixel = BYTES_PER_AXIS * D;
     let bytes = shape.cells().checked_mul(bytes_per_pixel);
-    let enough = bytes.is_some_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
-    if enough {
+    if has_memory(bytes) {
         return Ok(());
     }
     let size = shape.size().map(|n| n.to_string()).join(" x ");

@@ -54,7 +54,7 @@ impl Settings {
         }
         let readout = options.readout()?;
         let approach = match options.estimator {
-            HP_EIKONAL => Approach::Eikonal { farthest: options.farthest()? },
+            HP_EIKONAL => Approach::Eikonal { farthest: farthest(options.farthest)? },
             HP_HEAT_METHOD => Approach::HeatMethod(options.heat_method()),
             _ => Approach::Heat(options.heat()?),
         };
@@ -91,16 +91,6 @@ impl hp_options {
             other => {
                 Err(unknown("estimator", other, "one of HP_NORMALIZED to HP_HEAT_METHOD (1 to 4)"))
             }
-        }
-    }
-
-    fn farthest(&self) -> Result<f64, Failure> {
-        match self.farthest {
-            0.0 => Ok(f64::INFINITY),
-            farthest if farthest > 0.0 => Ok(farthest),
-            farthest => Err(Failure::argument(format!(
-                "farthest is {farthest}; it must be positive, or 0 for no end"
-            ))),
         }
     }
 
@@ -170,6 +160,17 @@ fn not_negative((field, value): (&str, f64)) -> Result<f64, Failure> {
         return Ok(value);
     }
     Err(Failure::argument(format!("{field} is {value}; it must be finite and 0 or more")))
+}
+
+/// Where distances end; 0 stands for nowhere.
+pub(crate) fn farthest(given: f64) -> Result<f64, Failure> {
+    match given {
+        0.0 => Ok(f64::INFINITY),
+        given if given > 0.0 => Ok(given),
+        given => Err(Failure::argument(format!(
+            "farthest is {given}; it must be positive, or 0 for no end"
+        ))),
+    }
 }
 
 pub(crate) fn unknown(field: &str, number: u32, right: &str) -> Failure {

@@ -1,12 +1,13 @@
 //! Media prepared for many sources.
 
 use crate::buffer::hp_buffer;
-use crate::handles::{borrow, free, hand_out};
+use crate::handles::{free, hand_out};
 use crate::options::hp_options;
-use crate::paths::{DISTANCE_SHARE, Traced, hp_paths, trace_prepared};
+use crate::paths::{Traced, hp_paths, trace_prepared};
 use crate::pixels;
 use crate::prepared::Prepared;
 use crate::problem::read_points;
+use crate::run::rounds;
 use crate::scene::{MEDIUM_SHARE, Scene};
 use crate::settings::Settings;
 use crate::status::{Failure, guard, hp_status};
@@ -25,6 +26,17 @@ pub(crate) enum AnyDimension {
     Two(Prepared<'static, 2>),
     Three(Prepared<'static, 3>),
 }
+
+/// Works with the medium of a solver, whatever its dimension.
+macro_rules! in_medium {
+    ($solver:expr, $prepared:ident => $work:expr) => {
+        match &$crate::handles::borrow($solver, "solver")?.medium {
+            $crate::solver::AnyDimension::Two($prepared) => $work,
+            $crate::solver::AnyDimension::Three($prepared) => $work,
+        }
+    };
+}
+pub(crate) use in_medium;
 
 /// Prepares distances from sources that are not known yet; with HP_SOLVER_IMPLICIT, analyses and
 /// factors the system.
@@ -71,17 +83,17 @@ unsafe fn prepare<const D: usize>(
     options: *const hp_options,
 ) -> Result<Prepared<'static, D>, Failure> {
     // SAFETY: the caller's promise.
-    let (settings, medium) = unsafe {
+    unsafe {
         let settings = Settings::read(options)?;
         let image = View::read(image, "image")?;
         let scene = Scene::read(&image, mask, &settings)?;
-        let medium = scene.medium(&settings.recipe, &[], MEDIUM_SHARE)?;
-        (settings, medium)
-    };
-    settings.run.part(MEDIUM_SHARE, 1.0)?;
-    let prepared = Prepared::new(medium, settings.approach, &settings.run.exec()?)?;
-    settings.run.finish()?;
-    Ok(prepared)
+        let exec = settings.run.exec()?;
+        let medium = scene.medium(&settings.recipe, &[], &exec.part(0.0, MEDIUM_SHARE))?;
+        let rest = exec.part(MEDIUM_SHARE, 1.0);
+        let prepared = Prepared::new(medium, settings.approach, &rest)?;
+        settings.run.finish()?;
+        Ok(prepared)
+    }
 }
 
 /// Computes the distance of every pixel from each of several sources: one map for each of them.
@@ -89,8 +101,8 @@ unsafe fn prepare<const D: usize>(
 /// sources: source_count points, as for hp_distance().
 ///
 /// options: only estimator, threads, progress and user count here, and of a solver made with
-/// HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL for the
-/// defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
+/// HP_EIKONAL or HP_HEAT_METHOD the estimator does not; the rest was fixed when the solver was made. NULL
+/// for the defaults. With HP_SOLVER_IMPLICIT sources are shared between the threads; the results do not
 /// depend on how many there are.
 ///
 /// distances: describes the first map, as for hp_distance().
@@ -115,23 +127,13 @@ pub unsafe extern "C" fn hp_solver_distances(
     distances: *const hp_buffer,
     map_stride: i64,
 ) -> hp_status {
-    guard(|| {
-        // SAFETY: the caller's promise.
-        unsafe {
-            let medium = &borrow(solver, "solver")?.medium;
-            let settings = Settings::read(options)?;
-            let maps = (distances, map_stride);
-            match medium {
-                AnyDimension::Two(prepared) => {
-                    let points = read_points(sources, source_count, "sources")?;
-                    write_maps(prepared, &points, &settings, maps)
-                }
-                AnyDimension::Three(prepared) => {
-                    let points = read_points(sources, source_count, "sources")?;
-                    write_maps(prepared, &points, &settings, maps)
-                }
-            }
-        }
+    // SAFETY: the caller's promise.
+    guard(|| unsafe {
+        let settings = Settings::read(options)?;
+        in_medium!(solver, prepared => {
+            let points = read_points(sources, source_count, "sources")?;
+            write_maps(prepared, &points, &settings, (distances, map_stride))
+        })
     })
 }
 
@@ -151,8 +153,8 @@ unsafe fn write_maps<const D: usize>(
     let sources = Sources::new(points, prepared.medium().mask())?.each();
     // === A few at a time, so that they need little memory
     let exec = settings.run.exec()?;
-    for round in settings.run.rounds(sources.len(), prepared.round(exec.threads()), 1.0) {
-        let places = round?;
+    for round in rounds(&exec, sources.len(), prepared.round(exec.threads())) {
+        let (places, exec) = round?;
         let maps = prepared.solve_each(&sources[places.clone()], settings.readout, &exec)?;
         for (place, map) in places.zip(&maps) {
             // SAFETY: the caller promises that the pixels can be written; their type was checked,
@@ -188,20 +190,12 @@ pub unsafe extern "C" fn hp_solver_paths_create(
 ) -> hp_status {
     let make = || {
         // SAFETY: the caller's promise.
-        let (medium, settings) =
-            unsafe { (&borrow(solver, "solver")?.medium, Settings::read(options)?) };
-        // SAFETY: the caller's promise.
         let paths = unsafe {
-            match medium {
-                AnyDimension::Two(prepared) => {
-                    let points = read_points(sources, source_count, "sources")?;
-                    trace(prepared, &points, &read_points(ends, end_count, "ends")?, &settings)?
-                }
-                AnyDimension::Three(prepared) => {
-                    let points = read_points(sources, source_count, "sources")?;
-                    trace(prepared, &points, &read_points(ends, end_count, "ends")?, &settings)?
-                }
-            }
+            let settings = Settings::read(options)?;
+            in_medium!(solver, prepared => {
+                let points = read_points(sources, source_count, "sources")?;
+                trace(prepared, &points, &read_points(ends, end_count, "ends")?, &settings)?
+            })
         };
         Ok(hp_paths { paths })
     };
@@ -218,7 +212,6 @@ fn trace<const D: usize>(
     let mask = prepared.medium().mask();
     let sources = Sources::new(sources, mask)?;
     check_points("end", ends, mask)?;
-    settings.run.part(0.0, DISTANCE_SHARE)?;
     trace_prepared(prepared, &sources, ends, settings, &settings.run.exec()?)
 }
 

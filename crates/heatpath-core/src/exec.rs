@@ -2,9 +2,9 @@
 
 pub use crate::simd::SimdLevel;
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread::{self, JoinHandle};
 use thiserror::Error;
 
@@ -13,14 +13,12 @@ use thiserror::Error;
 #[error("cancelled")]
 pub struct Cancelled;
 
-/// A thread pool could not be started.
-#[derive(Debug, Error)]
-#[error("could not start {threads} threads: {reason}")]
+/// More threads were asked for than are possible.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("could not start {threads} threads: at most {} are possible", Exec::MOST_THREADS)]
 pub struct ThreadsError {
     /// The number of threads asked for.
     pub threads: usize,
-    /// What was wrong with that, or what the operating system said.
-    pub reason: String,
 }
 
 /// Called from time to time with the finished part (0 to 1); [`ControlFlow::Break`] cancels.
@@ -29,8 +27,9 @@ pub type Watch<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 /// Where a computation runs and who watches it.
 ///
 /// The threads belong to this value and end with it: a program that hosts heatpath as a library or
-/// plugin keeps its own threads, and no process-wide state is changed. Results do not depend on
-/// the number of threads.
+/// plugin keeps its own threads, and no process-wide state is changed. They start when there is work
+/// for two of them; where the operating system refuses to start them, the calling thread works alone.
+/// Results do not depend on the number of threads.
 pub struct Exec<'a> {
     threads: Option<Arc<Threads>>,
     simd: SimdLevel,
@@ -46,13 +45,15 @@ impl<'a> Exec<'a> {
     /// processor.
     ///
     /// # Errors
-    /// There are too many, or the operating system refused to start them.
+    /// There are too many.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
-        if threads > Self::MOST_THREADS {
-            let reason = format!("at most {} are possible", Self::MOST_THREADS);
-            return Err(ThreadsError { threads, reason });
-        }
-        Ok(Self { threads: Some(Arc::new(Threads::start(threads)?)), ..Self::single_threaded() })
+        let count = match threads {
+            0 => processors(),
+            1..=Self::MOST_THREADS => threads,
+            _ => return Err(ThreadsError { threads }),
+        };
+        let threads = Threads { count, pool: OnceLock::new() };
+        Ok(Self { threads: Some(Arc::new(threads)), ..Self::single_threaded() })
     }
 
     /// Runs on the calling thread alone.
@@ -87,7 +88,7 @@ impl<'a> Exec<'a> {
     /// The number of threads.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.threads.as_ref().map_or(1, |threads| threads.handles.len())
+        self.threads.as_ref().map_or(1, |threads| threads.count)
     }
 
     /// The same threads for the part from `begin` to `end` (0 to 1) of the work: what they report is
@@ -102,8 +103,17 @@ impl<'a> Exec<'a> {
         whole.with_watch(watch)
     }
 
-    /// Reports the finished part and asks whether to go on.
-    pub(crate) fn report(&self, finished: f64) -> Result<(), Cancelled> {
+    /// The part of piece `number` (from 0) of `count` equal ones.
+    #[must_use]
+    pub fn piece(&self, number: usize, count: usize) -> Exec<'_> {
+        self.part(number as f64 / count as f64, (number + 1) as f64 / count as f64)
+    }
+
+    /// Reports the finished part (0 to 1) and asks whether to go on.
+    ///
+    /// # Errors
+    /// Whoever watches wants the work to stop.
+    pub fn report(&self, finished: f64) -> Result<(), Cancelled> {
         match self.watch.as_ref().map(|watch| watch(finished)) {
             Some(ControlFlow::Break(())) => Err(Cancelled),
             _ => Ok(()),
@@ -113,7 +123,8 @@ impl<'a> Exec<'a> {
     /// Calls `work` once for each of `items`, in parallel.
     pub(crate) fn for_each<T: Send>(&self, items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
         use rayon::prelude::*;
-        match self.threads.as_ref().and_then(|threads| threads.pool.as_ref()) {
+        let threads = self.threads.as_ref().filter(|threads| threads.count > 1 && items.len() > 1);
+        match threads.and_then(|threads| threads.pool()) {
             Some(pool) => pool.install(|| items.par_iter_mut().for_each(work)),
             None => items.iter_mut().for_each(work),
         }
@@ -136,20 +147,36 @@ impl<'a> Exec<'a> {
     }
 }
 
+/// How many processors there are; asking costs as much as a small computation.
+fn processors() -> usize {
+    static PROCESSORS: OnceLock<usize> = OnceLock::new();
+    *PROCESSORS.get_or_init(|| thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// So many threads, which start when there is work for two of them.
+struct Threads {
+    count: usize,
+    /// `None` if the operating system refused to start them.
+    pool: OnceLock<Option<Pool>>,
+}
+
+impl Threads {
+    fn pool(&self) -> Option<&ThreadPool> {
+        let pool = self.pool.get_or_init(|| Pool::start(self.count).ok());
+        pool.as_ref().and_then(|pool| pool.pool.as_ref())
+    }
+}
+
 /// A thread pool that has ended when it is dropped: rayon's own only asks its threads to end, and a
 /// host that unloads its plugin then would find them running.
-struct Threads {
+struct Pool {
     /// Always there until it is dropped.
     pool: Option<ThreadPool>,
     handles: Vec<JoinHandle<()>>,
 }
 
-impl Threads {
-    fn start(threads: usize) -> Result<Self, ThreadsError> {
-        let threads = match threads {
-            0 => thread::available_parallelism().map_or(1, usize::from),
-            threads => threads,
-        };
+impl Pool {
+    fn start(threads: usize) -> Result<Self, ThreadPoolBuildError> {
         let mut handles = Vec::new();
         let pool = ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -158,13 +185,12 @@ impl Threads {
                 handles.push(thread::Builder::new().name(name).spawn(|| worker.run())?);
                 Ok(())
             })
-            .build()
-            .map_err(|error| ThreadsError { threads, reason: error.to_string() })?;
+            .build()?;
         Ok(Self { pool: Some(pool), handles })
     }
 }
 
-impl Drop for Threads {
+impl Drop for Pool {
     fn drop(&mut self) {
         drop(self.pool.take());
         for handle in self.handles.drain(..) {
@@ -191,6 +217,16 @@ mod tests {
         assert_eq!(half.part(0.0, 0.5).report(0.5), Ok(()));
         assert_eq!(half.part(0.5, 1.0).report(0.5), Err(Cancelled));
         assert_eq!(*told.lock().unwrap(), [0.25, 0.5, 0.625, 0.875]);
+    }
+
+    #[test]
+    fn threads_start_when_there_is_work_for_two() {
+        let (exec, here) = (Exec::new(2).unwrap(), thread::current().id());
+        exec.for_each(&mut [()], |()| assert_eq!(thread::current().id(), here));
+        let has_started = || exec.threads.as_ref().unwrap().pool.get().is_some();
+        assert!(exec.threads() == 2 && !has_started());
+        exec.for_each(&mut [(), ()], |()| assert_ne!(thread::current().id(), here));
+        assert!(has_started());
     }
 
     #[test]

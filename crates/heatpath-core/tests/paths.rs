@@ -1,5 +1,6 @@
 //! Paths: where they end, how straight they are, and that they cross no wall.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+#![allow(clippy::print_stdout, reason = "the figures of docs/accuracy.md")]
 
 use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions, normalized};
@@ -160,7 +161,9 @@ fn a_short_cut_costs_more_than_its_distance() {
             HeatOptions { duration: Duration::Iterations(steps), ..HeatOptions::default() };
         let path = &paths(&medium, &[source], &[end], options)[0];
         assert_eq!(path.ending, Ending::Source(0));
-        assert!(path.length < 60.0 && path.cost > 2.0 * path.distance, "{path:?}");
+        let times = path.cost / path.distance;
+        println!("{steps} steps: the short cut costs {times:.1} times its distance");
+        assert!(path.length < 60.0 && (2.5..13.5).contains(&times), "{path:?}");
     }
     let sources = Sources::new(&[source], medium.mask()).unwrap();
     let exec = Exec::single_threaded();

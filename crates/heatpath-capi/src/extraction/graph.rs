@@ -228,7 +228,9 @@ impl hp_graph {
             node_count: nodes.len() as u64,
             branch_count: branches.len() as u64,
             source_count: sources.len() as u64,
-            physical_length: branches.iter().map(|branch| branch.info.physical_length).sum(),
+            physical_length: branches
+                .iter()
+                .fold(0.0, |sum, branch| sum + branch.info.physical_length),
             rounds: rounds as u64,
             stop,
             ..hp_graph_info::defaults()

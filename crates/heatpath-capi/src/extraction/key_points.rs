@@ -70,10 +70,10 @@ unsafe fn find<const D: usize>(
     };
     let look = Look::new(options.structure, options.extent);
     let look = look.map_err(|failure| failure.of("key_point_options"))?;
-    // SAFETY: the caller's promise.
-    let found = unsafe { start::<D>(arguments, &settings, look)? };
-    settings.run.part(MEDIUM_SHARE, 1.0)?;
     let exec = settings.run.exec()?;
+    // SAFETY: the caller's promise.
+    let found = unsafe { start::<D>(arguments, &settings, look, &exec.part(0.0, MEDIUM_SHARE))? };
+    let exec = exec.part(MEDIUM_SHARE, 1.0);
     let points = options.search(&found, &exec)?;
     settings.run.finish()?;
     let stop = match points.stop {

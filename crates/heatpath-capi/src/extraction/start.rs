@@ -2,10 +2,11 @@
 
 use crate::problem::{Arguments, read_points};
 use crate::recipe::Recipe;
-use crate::scene::{MEDIUM_SHARE, Scene};
+use crate::scene::Scene;
 use crate::settings::Settings;
 use crate::status::Failure;
 use crate::view::View;
+use heatpath_core::Exec;
 use heatpath_core::grid::Structure;
 
 /// What `hp_vote_options` and `hp_key_point_options` say about the structure; `None` is chosen.
@@ -43,6 +44,7 @@ pub(super) unsafe fn start<const D: usize>(
     arguments: &Arguments,
     settings: &Settings,
     look: Look,
+    exec: &Exec,
 ) -> Result<Structure<D>, Failure> {
     // SAFETY: the caller's promise, for each of the pointers.
     let (image, mut points) = unsafe {
@@ -53,12 +55,14 @@ pub(super) unsafe fn start<const D: usize>(
     let scene = unsafe { Scene::read(&image, arguments.mask, settings)? };
     let extent = look.extent.unwrap_or_else(|| Structure::usual_extent(&image.shape));
     let compares = matches!(settings.recipe, Recipe::Conductivity(_) | Recipe::Combined(..));
+    let mut begin = 0.0;
     if points.is_empty() && compares && settings.reference.is_none() {
         // Tubes have seeds, and these the grey values to compare with.
-        let tubes =
-            scene.medium(&Recipe::Vesselness(settings.tubes.clone()), &[], 0.5 * MEDIUM_SHARE)?;
+        let recipe = Recipe::Vesselness(settings.tubes.clone());
+        begin = 0.5;
+        let tubes = scene.medium(&recipe, &[], &exec.part(0.0, begin))?;
         points = Structure::new(tubes, &[], None, extent)?.sources.points().to_vec();
     }
-    let medium = scene.medium(&settings.recipe, &points, MEDIUM_SHARE)?;
+    let medium = scene.medium(&settings.recipe, &points, &exec.part(begin, 1.0))?;
     Ok(Structure::new(medium, &points, look.level, extent)?)
 }

@@ -98,11 +98,11 @@ unsafe fn find<const D: usize>(
     density.as_ref().map_or(Ok(()), pixels::check_writable)?;
     kept.as_ref().map_or(Ok(()), pixels::check_mask)?;
     let look = options.look().map_err(|failure| failure.of("vote_options"))?;
-    // SAFETY: the caller's promise.
-    let found = unsafe { start::<D>(arguments, &settings, look)? };
-    let ballot = options.ballot(&found).map_err(|failure| failure.of("vote_options"))?;
-    settings.run.part(MEDIUM_SHARE, 1.0)?;
     let exec = settings.run.exec()?;
+    // SAFETY: the caller's promise.
+    let found = unsafe { start::<D>(arguments, &settings, look, &exec.part(0.0, MEDIUM_SHARE))? };
+    let ballot = options.ballot(&found).map_err(|failure| failure.of("vote_options"))?;
+    let exec = exec.part(MEDIUM_SHARE, 1.0);
     let votes = match &ballot {
         Ballot::Heat(options) => vote(&found.medium, &found.sources, options, &exec)?,
         Ballot::FastMarching(options) => {

@@ -6,6 +6,7 @@ use crate::array::hp_array;
 use crate::items::Items;
 use crate::numbers::reals;
 use crate::status::Failure;
+use heatpath_core::Exec;
 use heatpath_core::mesh::{Curvature, Medium};
 use std::sync::Arc;
 
@@ -16,6 +17,7 @@ use std::sync::Arc;
 pub(crate) unsafe fn read_medium(
     surface: &Surface,
     settings: &Settings,
+    exec: &Exec,
 ) -> Result<Medium, Failure> {
     let mesh = Arc::clone(surface.mesh());
     // SAFETY: the caller's promise.
@@ -23,11 +25,11 @@ pub(crate) unsafe fn read_medium(
     let medium = match settings.recipe {
         Recipe::Uniform => return Ok(Medium::uniform(mesh)?),
         Recipe::Curvature(options) => {
-            let medium = Medium::curvature(mesh, &curvature(surface, settings)?, options);
+            let medium = Medium::curvature(mesh, &curvature(surface, settings, exec)?, options);
             return medium.map_err(|error| Failure::from(error).of("options"));
         }
         Recipe::Crease(options) => {
-            let medium = Medium::crease(mesh, &curvature(surface, settings)?, options);
+            let medium = Medium::crease(mesh, &curvature(surface, settings, exec)?, options);
             return medium.map_err(|error| Failure::from(error).of("options"));
         }
         Recipe::SpeedSq(values) => Medium::given(mesh, &of_vertices(values)?),
@@ -42,15 +44,9 @@ pub(crate) unsafe fn read_medium(
     medium.map_err(|error| Failure::from(error).of("values"))
 }
 
-fn curvature(surface: &Surface, settings: &Settings) -> Result<Curvature, Failure> {
-    settings.run.part(0.0, CURVATURE_SHARE)?;
-    let curvature = Curvature::new(surface.mesh(), settings.curvature, &settings.run.exec()?)?;
-    settings.run.part(CURVATURE_SHARE, 1.0)?;
-    Ok(curvature)
+fn curvature(surface: &Surface, settings: &Settings, exec: &Exec) -> Result<Curvature, Failure> {
+    Ok(Curvature::new(surface.mesh(), settings.curvature, exec)?)
 }
-
-/// The part of the curvature in the progress of a solver that needs it.
-const CURVATURE_SHARE: f64 = 0.5;
 
 /// # Safety
 /// `values` is NULL, misaligned, or points to the description of readable items.

@@ -13,10 +13,11 @@ use crate::paths::{
     HP_ENDED_CLOSED, HP_ENDED_NOT_REACHED, HP_ENDED_OPEN, HP_ENDED_SOURCE, HP_ENDED_STEP_LIMIT,
     HP_ENDED_UNREACHABLE, Traced, hp_path_info, hp_paths,
 };
+use crate::run::rounds;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::Versioned;
 use heatpath_core::Exec;
-use heatpath_core::mesh::path::{Ending, Path, isolines, shorten};
+use heatpath_core::mesh::path::{Ending, Path, isolines, length, shorten};
 use heatpath_core::mesh::{Method, Sources, SurfacePoint, TriMesh};
 
 /// Traces the shortest path from each end point to a source.
@@ -159,14 +160,10 @@ pub(super) fn curve(
 ) -> Traced {
     let positions: Vec<_> = places.iter().map(|point| mesh.position(point)).collect();
     let around = positions.first().filter(|_| ending == HP_ENDED_CLOSED);
-    let length = length(positions.iter().chain(around));
+    let closed: Vec<_> = positions.iter().chain(around).copied().collect();
+    let length = length(&closed);
     let places = places.to_vec();
     Leg { positions, places, ending, source, length, distance }.traced()
-}
-
-fn length<'a>(positions: impl Iterator<Item = &'a [f64; 3]> + Clone) -> f64 {
-    let pairs = positions.clone().zip(positions.skip(1));
-    pairs.map(|(a, b)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()).sum()
 }
 
 /// A path, or a piece of one, as the caller sees it.
@@ -259,10 +256,9 @@ impl Tracer<'_> {
     fn through(&self, points: &[SurfacePoint]) -> Result<Leg, Failure> {
         let (mesh, count) = (self.mesh(), points.len() - 1);
         let mut whole = Leg { distance: 0.0, ..Leg::none(mesh, points[0], HP_ENDED_SOURCE) };
-        let run = &self.settings.run;
-        let exec = run.exec()?;
-        for (number, pair) in points.windows(2).enumerate() {
-            run.part(number as f64 / count as f64, (number + 1) as f64 / count as f64)?;
+        let exec = self.settings.run.exec()?;
+        for (pair, round) in points.windows(2).zip(rounds(&exec, count, 1)) {
+            let (_, exec) = round?;
             let sources = Sources::new(mesh, &pair[1..])?;
             for leg in self.legs(&sources, &pair[..1], &exec)? {
                 whole = whole.then(&leg);

@@ -3,6 +3,7 @@
 use super::medium::read_medium;
 use super::settings::{Recipe, Settings};
 use super::surface::Surface;
+use crate::scene::MEDIUM_SHARE;
 use crate::status::Failure;
 use heatpath_core::mesh::Geodesics;
 use std::sync::Arc;
@@ -24,9 +25,11 @@ impl Prepared {
     /// The values of the settings are NULL, misaligned, or point to the description of readable
     /// items.
     pub(crate) unsafe fn new(surface: &Arc<Surface>, settings: &Settings) -> Result<Self, Failure> {
+        let exec = settings.run.exec()?;
         // SAFETY: the caller's promise.
-        let medium = unsafe { read_medium(surface, settings)? };
-        let geodesics = Geodesics::new(medium, settings.geodesics, &settings.run.exec()?)?;
+        let medium = unsafe { read_medium(surface, settings, &exec.part(0.0, MEDIUM_SHARE))? };
+        let rest = exec.part(MEDIUM_SHARE, 1.0);
+        let geodesics = Geodesics::new(medium, settings.geodesics, &rest)?;
         let is_uniform = matches!(settings.recipe, Recipe::Uniform);
         let farthest = settings.geodesics.farthest;
         Ok(Self { surface: Arc::clone(surface), geodesics, is_uniform, farthest })

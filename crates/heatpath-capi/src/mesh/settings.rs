@@ -8,7 +8,7 @@ use super::options::{
 };
 use crate::array::hp_array;
 use crate::run::Run;
-use crate::settings::{number, unknown};
+use crate::settings::{farthest, number, unknown};
 use crate::status::Failure;
 use crate::structs;
 use heatpath_core::mesh::clean::CleanOptions;
@@ -64,7 +64,7 @@ impl Settings {
                 method: options.method()?,
                 heat: options.heat(),
                 explicit: options.explicit(),
-                farthest: options.farthest()?,
+                farthest: farthest(options.farthest)?,
             },
             curvature: options.curvature()?,
             shortens: options.shorten != 0,
@@ -143,16 +143,6 @@ impl hp_mesh_options {
         };
         let iterations = (self.iterations > 0).then(|| number(self.iterations, 0));
         HeatOptions { step, iterations, ..HeatOptions::default() }
-    }
-
-    fn farthest(&self) -> Result<f64, Failure> {
-        match self.farthest {
-            0.0 => Ok(f64::INFINITY),
-            farthest if farthest > 0.0 => Ok(farthest),
-            farthest => Err(Failure::argument(format!(
-                "farthest is {farthest}; it must be positive, or 0 for no end"
-            ))),
-        }
     }
 
     fn curvature(&self) -> Result<CurvatureOptions, Failure> {

@@ -10,6 +10,7 @@ use super::settings::Settings;
 use crate::array::hp_array;
 use crate::handles::{borrow, free, hand_out};
 use crate::items::Items;
+use crate::run::rounds;
 use crate::status::{Failure, guard, hp_status};
 use crate::structs::check_pointer;
 use heatpath_core::mesh::distance::{DistanceMap, NO_LABEL, NOT_REACHED};
@@ -202,8 +203,8 @@ fn each_map(
     mut write: impl FnMut(usize, &DistanceMap),
 ) -> Result<(), Failure> {
     let exec = settings.run.exec()?;
-    for round in settings.run.rounds(sets.len(), AT_ONCE * exec.threads(), 1.0) {
-        let places = round?;
+    for round in rounds(&exec, sets.len(), AT_ONCE * exec.threads()) {
+        let (places, exec) = round?;
         let maps = prepared.geodesics.distances(&sets[places.clone()], &exec)?;
         places.zip(&maps).for_each(|(place, map)| write(place, map));
     }

@@ -310,10 +310,9 @@ impl Geodesics {
         mesh.check_points("end", points.first().copied())?;
         mesh.check_points("way", points[1..].iter().copied())?;
         let mut whole: Option<Path> = None;
-        let part = |pieces: usize| pieces as f64 / (points.len() - 1) as f64;
         for (number, pair) in points.windows(2).enumerate() {
             let sources = Sources::new(mesh, &pair[1..])?;
-            let exec = exec.part(part(number), part(number + 1));
+            let exec = exec.piece(number, points.len() - 1);
             let (_, mut pieces) = self.paths(&sources, &pair[..1], &exec)?;
             let piece = pieces.remove(0);
             let is_there = matches!(piece.ending, Ending::Source(_));
@@ -352,7 +351,7 @@ fn each(
     let part = |done: usize| done as f64 / sets.len() as f64;
     // One thread can be watched.
     if sets.len() == 1 || exec.threads() == 1 {
-        let one = |(number, sources)| map(sources, &exec.part(part(number), part(number + 1)));
+        let one = |(number, sources)| map(sources, &exec.piece(number, sets.len()));
         return sets.iter().enumerate().map(one).collect();
     }
     let mut maps = Vec::with_capacity(sets.len());

@@ -220,7 +220,7 @@ impl<const D: usize> Medium<D> {
     /// linearly between the open cells around. Infinite through walls.
     #[must_use]
     pub fn cost(&self, points: &[[f64; D]]) -> f64 {
-        points.windows(2).map(|pair| self.cost_of_segment(pair[0], pair[1])).sum()
+        points.windows(2).fold(0.0, |sum, pair| sum + self.cost_of_segment(pair[0], pair[1]))
     }
 
     fn cost_of_segment(&self, from: [f64; D], to: [f64; D]) -> f64 {

@@ -79,7 +79,7 @@ impl<const D: usize> Path<D> {
 
 /// The length of a polyline in the units of `shape`.
 pub(crate) fn length<const D: usize>(points: &[[f64; D]], shape: &Shape<D>) -> f64 {
-    points.windows(2).map(|pair| shape.physical_distance(pair[0], pair[1])).sum()
+    points.windows(2).fold(0.0, |sum, pair| sum + shape.physical_distance(pair[0], pair[1]))
 }
 
 /// The parameters of [`Descent::path`].

@@ -94,7 +94,8 @@ impl Path {
     }
 }
 
-/// The length of a polyline.
-pub(crate) fn length(positions: &[[f64; 3]]) -> f64 {
+/// The length of a polyline in space.
+#[must_use]
+pub fn length(positions: &[[f64; 3]]) -> f64 {
     positions.windows(2).fold(0.0, |sum, pair| sum + distance(pair[0], pair[1]))
 }

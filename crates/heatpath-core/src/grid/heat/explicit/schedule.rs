@@ -202,7 +202,8 @@ impl<const D: usize> Tiles<D> {
                 visited.exposure = now.heat.clone();
             }
         }
-        let windows: Vec<_> = (0..exec.threads()).map(|_| Mutex::new(self.window(steps))).collect();
+        let windows = if self.visited.len() == 1 { 1 } else { exec.threads() };
+        let windows: Vec<_> = (0..windows).map(|_| Mutex::new(self.window(steps))).collect();
         let mut done = 0;
         while done < steps.iterations {
             report(done as f64 / steps.iterations as f64)?;
