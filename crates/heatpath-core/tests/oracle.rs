@@ -114,6 +114,15 @@ fn plane_with_varying_factor_and_walls() {
 }
 
 #[test]
+fn plane_in_large_tiles() {
+    let medium =
+        medium::given(rough(Shape::new([520, 510]).unwrap(), 0.1), Form::Pointwise).unwrap();
+    for n in [5, 50] {
+        assert_agrees(&medium, [250, 255], n, &Exec::single_threaded());
+    }
+}
+
+#[test]
 fn combined_medium() {
     let image = rough(Shape::new([80, 70]).unwrap(), 0.8);
     let perona_malik = medium::PeronaMalikOptions { contrast: 0.2, ..Default::default() };

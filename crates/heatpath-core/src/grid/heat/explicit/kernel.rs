@@ -228,7 +228,9 @@ impl<const D: usize> Window<D> {
         steps: usize,
     ) {
         let rows = if D == 2 { 0..1 } else { extent.inner(1, step) };
-        self.inflow_middle.fill(0.0);
+        if D == 3 {
+            self.inflow_middle.fill(0.0);
+        }
         for y in rows {
             let mut index = [0; D];
             index[1] = y;

@@ -76,15 +76,22 @@ pub(super) fn trusted(value: f64) -> f64 {
     if value < SMALLEST { 0.0 } else { value }
 }
 
+/// What values must not be smaller than if those `steps` later shall not be dropped: a cell that
+/// heat comes to in a step seldom has less than 2^-16 of the cell before.
+pub(super) fn nearly_lost(steps: usize) -> f64 {
+    power_of_two(BOTTOM + 16 * steps as i32)
+}
+
 /// The largest of some values that are not negative.
 ///
 /// Eight at a time, because the comparisons of one maximum wait for each other.
 #[inline(always)]
 pub(super) fn largest(values: &[f64]) -> f64 {
-    let (chunks, rest) = values.as_chunks::<8>();
-    let mut lanes = [0.0; 8];
+    const LANES: usize = 32;
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    let mut lanes = [0.0; LANES];
     for chunk in chunks {
-        for lane in 0..8 {
+        for lane in 0..LANES {
             lanes[lane] = if chunk[lane] > lanes[lane] { chunk[lane] } else { lanes[lane] };
         }
     }

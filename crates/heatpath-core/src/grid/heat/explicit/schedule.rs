@@ -10,11 +10,12 @@
 //! is passed over.
 
 use super::kernel::{Extent, Window};
-use super::scaled::{RANGE, Scale, Scaled, exponent_for, largest, trusted};
+use super::scaled::{RANGE, Scale, Scaled, exponent_for, largest, nearly_lost, trusted};
 use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
 use crate::simd::{Lanes, WithLanes};
+use std::ops::BitOr;
 use std::sync::Mutex;
 
 /// The scheme and its time step.
@@ -48,22 +49,27 @@ pub(super) struct Tiling<const D: usize> {
 impl<const D: usize> Tiling<D> {
     /// The ways to cut a grid, in the order in which they are tried.
     ///
-    /// Larger tiles waste less work on margins and rows that are longer along x run faster, but
-    /// they must hold a wider range of values, and in 3-D outgrow the cache. Where heat moves
-    /// further than a cell in a step, larger tiles have room for its margins, which are not wider
-    /// than a quarter of a tile if one step is not.
-    pub(super) fn all(stencil: &Stencil<D>) -> impl Iterator<Item = Self> + use<D> {
+    /// Larger tiles are visited less often and rows that are longer along x run faster, but they
+    /// must hold a wider range of values, leave less to share between threads, and in 3-D outgrow
+    /// the cache. Where heat moves further than a cell in a step, larger tiles have room for its
+    /// margins, which are not wider than a quarter of a tile if one step is not.
+    pub(super) fn all(
+        stencil: &Stencil<D>,
+        shape: &Shape<D>,
+    ) -> impl Iterator<Item = Self> + use<D> {
         let (reach, row_multiple) = (stencil.reach(), stencil.row_multiple());
         let furthest = reach.into_iter().max().unwrap_or(1);
-        let edges: &[usize] = match D {
-            3 => &[32, 16, SHORTEST_EDGE],
-            _ if furthest > 1 => &[128, 64, 32, 16, SHORTEST_EDGE],
-            _ => &[64, 32, 16, SHORTEST_EDGE],
+        let is_large = shape.cells() >= ENOUGH_TILES * 256 * 128;
+        let (edges, most_steps): (&[usize], _) = match stencil {
+            _ if D == 3 => (&[32, 16, SHORTEST_EDGE], 4),
+            Stencil::Faces(_) if is_large => (&[128, 64, 32, 16, SHORTEST_EDGE], 16),
+            Stencil::Gather(_) if furthest > 1 => (&[128, 64, 32, 16, SHORTEST_EDGE], 8),
+            _ => (&[64, 32, 16, SHORTEST_EDGE], 8),
         };
         let longest = if D < 3 { None } else { Some((128, edges[0])) };
         let others = edges.iter().flat_map(|&edge| [(2 * edge, edge), (edge, edge)]);
         longest.into_iter().chain(others).map(move |(length, edge)| {
-            let steps = (edge / 8).min(edge / 4 / furthest).clamp(1, MOST_STEPS);
+            let steps = (edge / 8).min(edge / 4 / furthest).clamp(1, most_steps);
             let edge = std::array::from_fn(|axis| if axis == 0 { length } else { edge });
             Self { edge, steps, reach, row_multiple }
         })
@@ -103,8 +109,8 @@ impl<const D: usize> Tiling<D> {
 /// The shortest edge of a tile.
 const SHORTEST_EDGE: usize = 8;
 
-/// The most steps that a visit takes.
-const MOST_STEPS: usize = 8;
+/// How many of the largest tiles a picture should have at least: threads share them.
+const ENOUGH_TILES: usize = 8;
 
 /// How many powers of two the largest value of a window may lie above the top of a tile's range.
 const HEADROOM: i32 = 32;
@@ -140,8 +146,24 @@ struct Visited {
     number: usize,
     next: Temperature,
     exposure: Scaled,
-    /// Whether a value was too small for the range of a tile.
-    has_lost: bool,
+    lost: Lost,
+}
+
+/// What of the heat in a window was too small for its range.
+#[derive(Clone, Copy, Default)]
+struct Lost {
+    /// Whether some of it was.
+    some: bool,
+    /// Whether some of it was nearly too small at the end of the visit.
+    nearly: bool,
+}
+
+impl BitOr for Lost {
+    type Output = Self;
+
+    fn bitor(self, other: Self) -> Self {
+        Self { some: self.some | other.some, nearly: self.nearly | other.nearly }
+    }
 }
 
 /// The cells from `low` up to but not including `high`.
@@ -190,10 +212,12 @@ impl<const D: usize> Tiles<D> {
     /// A value that is lost below the range of a window is made up for within the steps that heat
     /// takes through the window, since it is nothing next to the heat in the same window. So no value
     /// may be lost in the last steps; and none at all if heat comes to some cell with no steps to
-    /// spare, which then rests on the very first arrivals.
+    /// spare, which then rests on the very first arrivals. Where a visit could be the first to lose
+    /// such a value, the grid is cut into the next of the `finer` tilings before.
     pub(super) fn march(
         mut self,
         steps: &Steps<D>,
+        finer: &mut impl Iterator<Item = Tiling<D>>,
         report: &mut dyn FnMut(f64) -> Result<(), Cancelled>,
         exec: &Exec,
     ) -> Result<Option<Fields<D>>, Cancelled> {
@@ -202,32 +226,26 @@ impl<const D: usize> Tiles<D> {
                 visited.exposure = now.heat.clone();
             }
         }
-        let windows = if self.visited.len() == 1 { 1 } else { exec.threads() };
-        let windows: Vec<_> = (0..windows).map(|_| Mutex::new(self.window(steps))).collect();
+        let mut windows = self.windows(steps, exec);
         let mut done = 0;
         while done < steps.iterations {
             report(done as f64 / steps.iterations as f64)?;
             let count = self.tiling.steps.min(steps.iterations - done);
-            let mut visited = std::mem::take(&mut self.visited);
-            exec.for_each_with(&mut visited, &windows, |window, tile| {
-                let tiles = &self;
-                exec.simd().with_lanes(Visit { tiles, steps, count, tile, window });
-            });
-            let mut has_lost = false;
-            for (visited, now) in visited.iter_mut().zip(&mut self.now) {
-                std::mem::swap(&mut visited.next, now);
-                has_lost |= visited.has_lost;
-            }
-            self.visited = visited;
+            let lost = self.visit(steps, count, &windows, exec);
             done += count;
             if let Some(depth) = steps.depth {
                 self.let_go_below(depth);
                 continue;
             }
-            let longest_way = self.tiling.longest_way();
-            let is_late = done + longest_way > steps.iterations;
-            if has_lost && (is_late || steps.spare.is_some_and(|spare| spare < longest_way)) {
+            if lost.some && self.may_lose_nothing(steps, done) {
                 return Ok(None);
+            }
+            let next = done + self.tiling.steps;
+            if (lost.some || lost.nearly) && self.may_lose_nothing(steps, next) {
+                if let Some(tiling) = finer.next() {
+                    self = self.cut(tiling);
+                    windows = self.windows(steps, exec);
+                }
             }
         }
         let exposure: Vec<_> = self.visited.into_iter().map(|visited| visited.exposure).collect();
@@ -235,6 +253,72 @@ impl<const D: usize> Tiles<D> {
         let (shape, tiling) = (self.shape, self.tiling);
         let exposure = steps.exposure.then(|| logarithms(shape, tiling, exposure, exec));
         Ok(Some((logarithms(shape, tiling, temperature, exec), exposure)))
+    }
+
+    /// Advances all tiles by `count` steps.
+    fn visit(
+        &mut self,
+        steps: &Steps<D>,
+        count: usize,
+        windows: &[Mutex<Window<D>>],
+        exec: &Exec,
+    ) -> Lost {
+        let mut visited = std::mem::take(&mut self.visited);
+        exec.for_each_with(&mut visited, windows, |window, tile| {
+            let tiles = &self;
+            exec.simd().with_lanes(Visit { tiles, steps, count, tile, window });
+        });
+        for (visited, now) in visited.iter_mut().zip(&mut self.now) {
+            std::mem::swap(&mut visited.next, now);
+        }
+        self.visited = visited;
+        self.visited.iter().fold(Lost::default(), |lost, visited| lost | visited.lost)
+    }
+
+    /// Whether what is lost in a visit that ends after `done` steps is missing in the end.
+    fn may_lose_nothing(&self, steps: &Steps<D>, done: usize) -> bool {
+        let longest_way = self.tiling.longest_way();
+        let is_late = done + longest_way > steps.iterations;
+        is_late || steps.spare.is_some_and(|spare| spare < longest_way)
+    }
+
+    /// The same heat in other tiles.
+    fn cut(&self, tiling: Tiling<D>) -> Self {
+        let mut tiles = Self::new(&self.shape, tiling);
+        for number in 0..tiles.now.len() {
+            let heat = self.gathered(|tile| &self.now[tile].heat, &tiles, number);
+            let largest = largest(&heat.values);
+            tiles.now[number] = Temperature { heat, largest };
+            tiles.visited[number].exposure =
+                self.gathered(|tile| &self.visited[tile].exposure, &tiles, number);
+        }
+        tiles
+    }
+
+    /// What the tiles hold, in the cells of a tile of `others`.
+    fn gathered<'a>(
+        &self,
+        held: impl Fn(usize) -> &'a Scaled,
+        others: &Self,
+        number: usize,
+    ) -> Scaled {
+        let mut all = Scaled::default();
+        let range = others.range_of(number);
+        for tile in self.tiles_around(range).filter(|&tile| !held(tile).values.is_empty()) {
+            let heat = held(tile);
+            let part = range.intersection(self.range_of(tile));
+            let row = |row| &heat.values[self.place(row)..][..part.row_length()];
+            let most = part.rows().map(|first| largest(row(first))).fold(0.0, f64::max);
+            if most > 0.0 {
+                all.grow(exponent_for(most, heat.exponent), others.tile_cells());
+                let scale = Scale::new(heat.exponent - all.exponent);
+                for first in part.rows() {
+                    let cells = all.values[others.place(first)..].iter_mut().zip(row(first));
+                    cells.for_each(|(cell, &value)| *cell = scale.apply(value));
+                }
+            }
+        }
+        all
     }
 
     /// Takes the heat from tiles that are `depth` powers of two below the hottest one.
@@ -250,13 +334,17 @@ impl<const D: usize> Tiles<D> {
         }
     }
 
-    /// Where a thread advances its tile.
-    fn window(&self, steps: &Steps<D>) -> Window<D> {
+    /// Where threads advance their tiles.
+    fn windows(&self, steps: &Steps<D>, exec: &Exec) -> Vec<Mutex<Window<D>>> {
         let (room, count) = (self.tiling.room(), self.tiling.steps);
-        let mut window = Window::new(room, count, steps.stencil, steps.exposure);
-        window.rate.fill(steps.step);
-        window.rate_is_uniform = steps.factor.is_none();
-        window
+        let window = || {
+            let mut window = Window::new(room, count, steps.stencil, steps.exposure);
+            window.rate.fill(steps.step);
+            window.rate_is_uniform = steps.factor.is_none();
+            Mutex::new(window)
+        };
+        let threads = if self.visited.len() == 1 { 1 } else { exec.threads() };
+        (0..threads).map(|_| window()).collect()
     }
 
     /// The cells of a tile.
@@ -331,12 +419,14 @@ impl<const D: usize> WithLanes for Visit<'_, D> {
         let Some(exponent) = tiles.exponent(tile.number, around) else {
             tile.next.heat.values.clear();
             tile.next.largest = 0.0;
+            tile.lost = Lost::default();
             return;
         };
         let extent = tiles.extent(around);
-        tile.has_lost = tiles.load(around, extent.low, exponent, steps, window);
+        let has_lost = tiles.load(around, extent.low, exponent, steps, window);
         window.advance(lanes, steps.stencil, &extent, count);
-        tile.has_lost |= tiles.store(inside, extent.low, window, &mut tile.next);
+        tile.lost = tiles.store(inside, extent.low, window, &mut tile.next);
+        tile.lost.some |= has_lost;
         tile.next.heat.exponent = exponent;
         if steps.exposure {
             tiles.add_exposure(inside, extent.low, window, exponent, &mut tile.exposure);
@@ -449,8 +539,9 @@ impl<const D: usize> Tiles<D> {
         low: [usize; D],
         window: &Window<D>,
         next: &mut Temperature,
-    ) -> bool {
-        let mut has_lost = false;
+    ) -> Lost {
+        let mut lost = Lost::default();
+        let nearly_lost = nearly_lost(self.tiling.steps);
         next.heat.values.resize(self.tile_cells(), 0.0);
         next.largest = 0.0;
         for row in inside.rows() {
@@ -460,11 +551,12 @@ impl<const D: usize> Tiles<D> {
             let values = &mut next.heat.values[to..to + cells.len()];
             for (value, u) in values.iter_mut().zip(cells) {
                 *value = trusted(*u);
-                has_lost |= *u > *value;
+                lost.some |= *u > *value;
+                lost.nearly |= (*u > 0.0) & (*u < nearly_lost);
             }
             next.largest = largest(values).max(next.largest);
         }
-        has_lost
+        lost
     }
 }
 
@@ -529,4 +621,38 @@ impl<const D: usize> Range<D> {
 #[inline(always)]
 fn offset<const D: usize>(cell: [usize; D], low: [usize; D]) -> [usize; D] {
     std::array::from_fn(|axis| cell[axis] - low[axis])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_tiles_hold_the_same_heat() {
+        let shape = Shape::new([70, 45]).unwrap_or_else(|_| unreachable!("a small grid"));
+        let tiling = |edge| Tiling { edge, steps: 1, reach: [1; 2], row_multiple: 8 };
+        let mut tiles = Tiles::new(&shape, tiling([32, 24]));
+        for cell in (0..shape.cells()).filter(|cell| cell % 7 < 4 && cell % 70 < 60) {
+            tiles.add(cell, 1.0 + cell as f64);
+        }
+        for (number, tile) in tiles.now.iter_mut().enumerate() {
+            tile.heat.exponent -= 300 * number as i32;
+            tiles.visited[number].exposure = tile.heat.clone();
+        }
+        let exec = Exec::single_threaded();
+        let fields = |tiles: Tiles<2>| {
+            let heat = tiles.now.into_iter().map(|now| now.heat).collect();
+            let exposure = tiles.visited.into_iter().map(|visited| visited.exposure).collect();
+            [heat, exposure].map(|held| logarithms(shape, tiles.tiling, held, &exec))
+        };
+        for edge in [[16, 8], [32, 16], [24, 40]] {
+            let others = tiles.cut(tiling(edge));
+            for now in &others.now {
+                assert_eq!(now.largest, largest(&now.heat.values));
+                assert!(now.heat.values.is_empty() || now.largest > 0.0);
+            }
+            assert_eq!(fields(others), fields(tiles.cut(tiling([32, 24]))), "{edge:?}");
+        }
+        assert_eq!(fields(tiles.cut(tiling([16, 8]))), fields(tiles));
+    }
 }
