@@ -44,10 +44,10 @@ fn levels(criterion: &mut Criterion) {
     }
 }
 
-/// Pictures, each with steps for 5e8 to 7e8 updates, and the unit of speed on the same pictures.
+/// Pictures, and the unit of speed on the same pictures.
 fn plane(criterion: &mut Criterion) {
     let mut group = group(criterion, "2-D");
-    for (side, point_steps, noise_steps) in [(1024, 1024, 640), (4096, 400, 40)] {
+    for (side, point_steps, noise_steps) in [(1024, 1024, 640), (4096, 400, 128)] {
         let medium = conductivity(&picture([side; 2]));
         from_point(&mut group, &medium, point_steps);
         from_noise(&mut group, &medium, noise_steps);
@@ -63,6 +63,7 @@ fn space(criterion: &mut Criterion) {
         let medium = conductivity(&picture([side; 3]));
         from_point(&mut group, &medium, point_steps);
         from_noise(&mut group, &medium, noise_steps);
+        unit_in_space(&mut group, side, noise_steps);
     }
 }
 
@@ -226,16 +227,36 @@ fn updates_from_middle<const D: usize>(shape: &Shape<D>, iterations: usize) -> u
 ///
 /// It does less than the engine: no k, and no range beyond that of `T`.
 fn unit_of_speed<T: Number>(group: &mut Group, name: &str, side: usize, iterations: usize) {
-    let cells = side * side;
-    let across = vec![T::from(0.2_f32); cells];
+    let across = vec![T::from(0.2_f32); side * side];
     let down = across.clone();
+    let step = |next: &mut [T], u: &[T]| unit_step(next, u, &across, &down, side);
+    repeat(group, BenchmarkId::new(name, side), side * side, iterations, step);
+}
+
+/// The unit of speed in volumes.
+fn unit_in_space(group: &mut Group, side: usize, iterations: usize) {
+    let across = vec![0.1; side.pow(3)];
+    let (down, behind) = (across.clone(), across.clone());
+    let step = |next: &mut [f64], u: &[f64]| {
+        unit_step_in_space(next, u, [&across, &down, &behind], side);
+    };
+    repeat(group, BenchmarkId::new("unit, f64", side), side.pow(3), iterations, step);
+}
+
+fn repeat<T: Number>(
+    group: &mut Group,
+    id: BenchmarkId,
+    cells: usize,
+    iterations: usize,
+    step: impl Fn(&mut [T], &[T]),
+) {
     let mut u: Vec<T> = (0..cells).map(|cell| T::from((cell % 64 == 0).into())).collect();
     let mut next = u.clone();
     group.throughput(Throughput::Elements((cells * iterations) as u64));
-    group.bench_function(BenchmarkId::new(name, side), |bencher| {
+    group.bench_function(id, |bencher| {
         bencher.iter(|| {
             for _ in 0..iterations {
-                unit_step(&mut next, &u, &across, &down, side);
+                step(&mut next, &u);
                 std::mem::swap(&mut next, &mut u);
             }
             black_box(&u);
@@ -256,6 +277,24 @@ fn unit_step<T: Number>(next: &mut [T], u: &[T], across: &[T], down: &[T], side:
             next[i] = u[i]
                 + (across[i + 1] * (u[i + 1] - u[i]) - across[i] * (u[i] - u[i - 1]))
                 + (down[i + side] * (u[i + side] - u[i]) - down[i] * (u[i] - u[i - side]));
+        }
+    }
+}
+
+/// The same in a volume.
+#[inline(never)]
+fn unit_step_in_space(next: &mut [f64], u: &[f64], faces: [&[f64]; 3], side: usize) {
+    let [across, down, behind] = faces;
+    let (row, plane) = (side, side * side);
+    for z in 1..side - 1 {
+        for y in 1..side - 1 {
+            for i in z * plane + y * row + 1..z * plane + (y + 1) * row - 1 {
+                next[i] = u[i]
+                    + (across[i + 1] * (u[i + 1] - u[i]) - across[i] * (u[i] - u[i - 1]))
+                    + (down[i + row] * (u[i + row] - u[i]) - down[i] * (u[i] - u[i - row]))
+                    + (behind[i + plane] * (u[i + plane] - u[i])
+                        - behind[i] * (u[i] - u[i - plane]));
+            }
         }
     }
 }
