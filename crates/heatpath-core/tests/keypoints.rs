@@ -16,7 +16,8 @@ use heatpath_core::grid::path::Ending;
 use heatpath_core::grid::{Mask, PointError, Shape, Sources};
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
-use support::curves::{Curve, curve, distance, draw, score, segment, tree};
+use support::curves::{Curve, curve, distance, draw, random_tree, score, segment, tree};
+use support::random;
 
 fn options(radius: f64) -> KeyPointOptions {
     KeyPointOptions { radius, ..KeyPointOptions::default() }
@@ -72,15 +73,22 @@ fn assert_links_hold<const D: usize>(found: &KeyPoints<D>) {
     }
 }
 
-fn assert_found(name: &str, curves: &[Curve<2>], seed: [f64; 2], radius: f64, closing: usize) {
+fn assert_found(
+    name: &str,
+    curves: &[Curve<2>],
+    seed: [f64; 2],
+    radius: f64,
+    (closing, gap): (usize, f64),
+) {
     for (medium, kind) in media(picture(), curves).iter().zip(["conductivity", "vesselness"]) {
         let found = find(medium, &[seed], &options(radius));
         let score = score(&found, curves);
         let loops = found.closing().count();
         let name = format!("{name}, {kind}, radius {radius}");
+        println!("{name}: {score:.3?}");
         assert_links_hold(&found);
         assert_eq!(found.stop, Stop::Complete);
-        assert!(score.recall > 0.97 && score.gap < 6.0, "{name}: {score:?}");
+        assert!(score.recall > 0.98 && score.gap <= gap, "{name}: {score:?}");
         assert!(score.precision > 0.96 && score.mean < 0.6, "{name}: {score:?}");
         assert!(loops == closing, "{name}: {loops} loops");
     }
@@ -89,15 +97,15 @@ fn assert_found(name: &str, curves: &[Curve<2>], seed: [f64; 2], radius: f64, cl
 #[test]
 fn closed_curves_are_found_and_closed() {
     for radius in [15.0, 30.0] {
-        assert_found("circle", &[around(3.0, |_| 100.0)], [250.0, 150.0], radius, 1);
-        assert_found("small circle", &[around(3.0, |_| 40.0)], [190.0, 150.0], radius, 1);
+        assert_found("circle", &[around(3.0, |_| 100.0)], [250.0, 150.0], radius, (1, 0.0));
+        assert_found("small circle", &[around(3.0, |_| 40.0)], [190.0, 150.0], radius, (1, 0.0));
         let ellipse =
             curve(3.0, |s| [150.0 + 120.0 * (TAU * s).cos(), 150.0 + 50.0 * (TAU * s).sin()]);
-        assert_found("ellipse", &[ellipse], [270.0, 150.0], radius, 1);
+        assert_found("ellipse", &[ellipse], [270.0, 150.0], radius, (1, 0.0));
         let trefoil = around(2.5, |a| 80.0 + 40.0 * (3.0 * a).cos());
-        assert_found("trefoil", &[trefoil], [270.0, 150.0], radius, 1);
+        assert_found("trefoil", &[trefoil], [270.0, 150.0], radius, (1, 0.0));
         let star = around(2.5, |a| 90.0 + 31.5 * (5.0 * a).cos());
-        assert_found("star", &[star], [271.5, 150.0], radius, 1);
+        assert_found("star", &[star], [271.5, 150.0], radius, (1, 4.5));
     }
 }
 
@@ -107,14 +115,39 @@ fn a_spiral_is_followed_to_its_end() {
         let (angle, radius) = (6.0 * PI * s, 20.0 + 105.0 * s);
         [150.0 + radius * angle.cos(), 150.0 + radius * angle.sin()]
     });
-    assert_found("spiral", &[spiral], [275.0, 150.0], 30.0, 0);
+    assert_found("spiral", &[spiral], [275.0, 150.0], 30.0, (0, 0.0));
 }
 
 #[test]
 fn all_branches_of_a_tree_are_found() {
     let tree = tree([150.0, 290.0], PI / 2.0, 85.0, 4.5, 3);
-    assert_found("tree", &tree, [150.0, 285.0], 15.0, 0);
+    assert_found("tree", &tree, [150.0, 285.0], 15.0, (0, 5.0));
 }
+
+/// A gap is a stretch of a centreline, from where its branch leaves that of its parent to its tip, that
+/// is more than 2 pixels away from every link. None is longer than 3 pixels: ends of thin branches.
+/// (Circles are 3 times as wide as the trunk, at least.)
+#[test]
+fn no_gap_remains_on_generated_trees() {
+    for (side, numbers) in [(300_usize, 1..7_u64), (450, 7..11), (700, 11..13), (1000, 13..14)] {
+        for number in numbers {
+            let mut random = random(number);
+            let half_width = 2.5 + 2.5 * random();
+            let tree = random_tree(side as f64, half_width, &mut random);
+            let shape = Shape::new([side, side]).unwrap();
+            let seed = [0.5 * side as f64, 0.96 * side as f64 - 1.0];
+            for (medium, kind) in media(shape, &tree).iter().zip(["conductivity", "vesselness"]) {
+                let score = score(&find(medium, &[seed], &options(15.0)), &tree);
+                println!("{side}, tree {number}, {kind}: {score:.3?}");
+                assert!(score.recall > 0.985 && score.precision > 0.98 && score.mean < 0.3);
+                assert!(score.gap <= 3.0 || kind == "vesselness" && BROKEN.contains(&number));
+            }
+        }
+    }
+}
+
+/// Trees of which branches cross, or end, in others: vesselness has holes there of more than two cells.
+const BROKEN: [u64; 3] = [1, 11, 12];
 
 /// A fifth of the temperature is lost over a seventh of a cell.
 #[test]
@@ -150,7 +183,7 @@ fn curves_in_space_are_found() {
             println!("space: {score:.3?}, {} key points", found.points.len());
             assert_links_hold(&found);
             assert_eq!(found.closing().count(), 0);
-            assert!(score.recall > 0.97 && score.gap < 4.0 && score.precision > 0.97, "{score:?}");
+            assert!(score.recall > 0.97 && score.gap == 0.0 && score.precision > 0.97, "{score:?}");
             assert!(score.mean < 0.6, "{score:?}");
         }
     }

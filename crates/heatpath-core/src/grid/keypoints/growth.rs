@@ -1,5 +1,7 @@
 //! The list of key points and how it grows.
 
+use super::ends::rest;
+use super::joints::straighten;
 use super::region::Region;
 use super::search::{APART, Branch, Search, Visit, cells_between, passes};
 use super::{KeyPoint, KeyPointError, KeyPoints, Link, Stop};
@@ -17,6 +19,9 @@ pub(super) struct Growth<'a, 'm, const D: usize> {
     regions: Vec<Region<D>>,
     /// What may be a tip once all else is known.
     tips: Vec<Branch<D>>,
+    /// What may have been missed: peaks in other regions or beside other key points, to which no path
+    /// may lead in the end, and those beyond holes.
+    missed: Vec<Branch<D>>,
     travelling: Grid<f64, D>,
 }
 
@@ -32,6 +37,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             links: Vec::new(),
             regions: Vec::new(),
             tips: Vec::new(),
+            missed: Vec::new(),
             travelling: Grid::from_fn(*search.medium.shape(), |_| NOT_REACHED),
         }
     }
@@ -54,9 +60,18 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
                     self.take(visit)?;
                 }
             }
+            if self.regions.len() == self.points.len() {
+                let missed = std::mem::take(&mut self.missed);
+                self.add_unknown(missed);
+            }
         }
         let stop = if self.is_full() { Stop::Most } else { Stop::Complete };
-        self.add_tips();
+        let tips = std::mem::take(&mut self.tips);
+        self.add_unknown(tips);
+        straighten(self.search, &mut self.links, exec)?;
+        if self.search.options.tips {
+            self.add_ends(exec)?;
+        }
         exec.report(1.0)?;
         let Self { points, links, travelling, .. } = self;
         Ok(KeyPoints { points, links, travelling, iterations: self.search.iterations, stop })
@@ -72,11 +87,15 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         self.travel(&visit);
         for branch in visit.peaks {
             match self.owner(number, branch.point()) {
-                Some(owner) => self.close(number, owner, &branch)?,
+                Some(owner) => {
+                    self.close(number, owner, &branch)?;
+                    self.missed.push(branch);
+                }
                 None => match self.twin(number, branch.point()) {
                     Some(twin) => {
                         let rest = straight(branch.point(), self.points[twin].point);
                         self.join(number, twin, &branch.path, &rest);
+                        self.missed.push(branch);
                     }
                     None if self.is_full() => {}
                     None => self.add(branch),
@@ -85,6 +104,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         }
         self.regions.push(visit.region);
         self.tips.extend(visit.tips);
+        self.missed.extend(visit.beyond);
         Ok(())
     }
 
@@ -212,19 +232,47 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
         }
     }
 
-    /// Adds the ends of branches that end inside a circle, where no other path passes.
-    fn add_tips(&mut self) {
-        for tip in std::mem::take(&mut self.tips) {
-            let point = tip.point();
-            let reach = 2.0 * self.search.options.radius;
-            let is_known = self.links.iter().any(|link| {
-                cells_between(self.points[link.to].point, point) < reach
-                    && passes(&link.path.points, point, APART)
-            });
-            if !is_known && !self.is_full() {
-                self.add(tip);
+    /// Adds those of some branches where no path passes by.
+    fn add_unknown(&mut self, branches: Vec<Branch<D>>) {
+        for branch in branches {
+            if !self.is_full() && !self.is_known(branch.point()) {
+                self.add(branch);
             }
         }
+    }
+
+    /// Whether a path passes by a point.
+    fn is_known(&self, point: [f64; D]) -> bool {
+        let reach = 2.0 * self.search.options.radius;
+        self.links.iter().any(|link| {
+            cells_between(self.points[link.to].point, point) < reach
+                && passes(&link.path.points, point, APART)
+        })
+    }
+
+    /// Adds the ends of branches that go on beyond their last key point.
+    fn add_ends(&mut self, exec: &Exec) -> Result<(), KeyPointError> {
+        let mut links_at = vec![0; self.points.len()];
+        self.links.iter().flat_map(|link| [link.from, link.to]).for_each(|n| links_at[n] += 1);
+        let is_last = |link: &&Link<D>| links_at[link.from] == 1;
+        let last: Vec<&Link<D>> = self.links.iter().filter(is_last).collect();
+        let points: Vec<[f64; D]> = last.iter().map(|link| link.path.points[0]).collect();
+        let rests = self.search.each(&points, exec, |number| {
+            Ok((last[number].from, rest(self.search, &last[number].path.points)))
+        })?;
+        for (to, mut points) in rests {
+            if points.len() > 1 && !self.is_full() {
+                points.insert(0, self.points[to].point);
+                points.reverse();
+                let medium = self.search.medium;
+                let cost = medium.cost(&points);
+                let path = Path::new(points, Ending::Source(to), cost, medium);
+                let (from, point) = (self.points.len(), path.points[0]);
+                self.points.push(KeyPoint { point, parent: Some(to), ln_temperature: None });
+                self.links.push(Link { from, to, path });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -236,7 +284,7 @@ fn parting<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> (usize, usize) {
 }
 
 /// The straight way between two points, in steps of half a cell.
-fn straight<const D: usize>(a: [f64; D], b: [f64; D]) -> Vec<[f64; D]> {
+pub(super) fn straight<const D: usize>(a: [f64; D], b: [f64; D]) -> Vec<[f64; D]> {
     let steps = (2.0 * cells_between(a, b)).ceil().max(1.0) as usize;
     let at = |step: usize| {
         let part = step as f64 / steps as f64;

@@ -1,10 +1,13 @@
 //! Key points: curves and trees from a single point, piece by piece (Yang & Cohen, section 4.2).
 
 mod circle;
+mod ends;
 mod growth;
+mod joints;
 mod length;
 mod region;
 mod search;
+mod surroundings;
 mod window;
 
 pub use self::length::{LengthOptions, key_points_by_length};
@@ -117,10 +120,11 @@ pub enum KeyPointError {
 pub struct KeyPoint<const D: usize> {
     /// In pixel coordinates.
     pub point: [f64; D],
-    /// The number of the key point on whose circle it was found; `None` for seeds.
+    /// The number of the key point on whose circle it was found, or beyond which its branch ends; `None`
+    /// for seeds.
     pub parent: Option<usize>,
-    /// The logarithm of the temperature there, of heat from the parent; `None` for seeds, and without
-    /// heat.
+    /// The logarithm of the temperature there, of heat from the parent; `None` for seeds, for ends that
+    /// no circle has found, and without heat.
     pub ln_temperature: Option<f64>,
 }
 
@@ -183,6 +187,15 @@ impl<const D: usize> KeyPoints<D> {
 ///   A peak in an earlier region is no key point; the two are linked if the way between them runs in the
 ///   structure and joins what is far apart otherwise. So closed curves are closed, and several seeds
 ///   joined.
+/// - *Missed branches.* Once no circle has a new peak, those that were left out because they lie in an
+///   earlier region or beside another key point are looked at again: where no path passes by, they
+///   are key points after all. So are peaks beyond a hole of two cells at most, if the way to them has run
+///   in the structure again for half a radius: vesselness often has such holes at forks.
+/// - *Joints.* Heat, and the path with it, takes the shortest way around the corner between a branch and
+///   the tube that it leaves. The path of a branch goes straight on instead, as it came, from the mouth of
+///   the branch to the curve in that tube, and then along it to the parent.
+/// - *Ends.* With [`KeyPointOptions::tips`], a branch that goes on beyond its last key point for a few cells,
+///   too few for a circle, has one more at its end.
 /// - *Windows.* Heat moves one cell a step, so it flows in the box that it can reach: a key point costs the
 ///   same in any picture. Where D is a tensor, whose offsets are longer, the box cuts off what has no
 ///   bearing on the circle.

@@ -45,14 +45,20 @@ pub(super) struct Visit<const D: usize> {
     pub(super) peaks: Vec<Branch<D>>,
     /// Peaks inside the circle to which none of the other paths leads, outermost first.
     pub(super) tips: Vec<Branch<D>>,
+    /// Peaks beyond a hole in the structure.
+    pub(super) beyond: Vec<Branch<D>>,
     pub(super) region: Region<D>,
 }
 
 /// Two paths that are no further apart than this, in cells, are in the same tube.
 pub(super) const APART: f64 = 5.0;
 
+/// A hole in the structure may be this long on a path, in cells. At 3, key points jump from one line
+/// to another 7 cells beside it.
+const HOLE: f64 = 2.0;
+
 /// By how many cells the circles for tips shrink.
-const TIP_STEP: f64 = 2.0;
+pub(super) const TIP_STEP: f64 = 2.0;
 
 impl<'a, const D: usize> Search<'a, D> {
     pub(super) fn new(
@@ -120,6 +126,7 @@ impl<'a, const D: usize> Search<'a, D> {
         let flow = self.flow(point)?;
         let mut peaks = Vec::new();
         let mut on_first = 0;
+        let mut beyond = Vec::new();
         if let Some(descent) = flow.descent() {
             for (level, (radius, circle)) in self.circles.iter().enumerate() {
                 let at = |&d: &[f64; D]| self.on_circle(point, d, *radius);
@@ -129,9 +136,13 @@ impl<'a, const D: usize> Search<'a, D> {
                     let end = at(&direction);
                     let is_new = level == 0 || !leads_to(&peaks, end);
                     if is_new && self.is_warm(&flow, end, radius / self.options.radius) {
-                        let path = flow.path(&descent, end, number);
-                        let path = path.filter(|path| self.runs_inside(&path.points));
-                        peaks.extend(path.map(|path| Branch { ln_temperature: value, path }));
+                        let Some(path) = flow.path(&descent, end, number) else { continue };
+                        let branch = Branch { ln_temperature: value, path };
+                        if self.runs_inside(&branch.path.points) {
+                            peaks.push(branch);
+                        } else if self.jumps_a_hole(&branch.path.points) {
+                            beyond.push(branch);
+                        }
                     }
                 }
                 on_first = if level == 0 { peaks.len() } else { on_first };
@@ -139,7 +150,7 @@ impl<'a, const D: usize> Search<'a, D> {
         }
         let tips = peaks.split_off(on_first);
         let region = Region::new(self, &flow, point, &peaks);
-        Ok(Visit { flow, peaks, tips, region })
+        Ok(Visit { flow, peaks, tips, region, beyond })
     }
 
     /// A point on the circle around a key point, in pixel coordinates.
@@ -162,6 +173,27 @@ impl<'a, const D: usize> Search<'a, D> {
     /// Whether a path stays where the medium is fast (epsilon 2), all the way.
     pub(super) fn runs_inside(&self, points: &[[f64; D]]) -> bool {
         points.iter().all(|&point| self.is_inside(point))
+    }
+
+    /// Whether a path crosses small holes only of the structure, such as vesselness has at a fork, and
+    /// runs inside of it for half a radius before them.
+    fn jumps_a_hole(&self, points: &[[f64; D]]) -> bool {
+        let (mut first, mut hole) = (f64::INFINITY, 0.0);
+        let mut length = 0.0;
+        for pair in points.windows(2) {
+            let step = self.apart(pair[0], pair[1]);
+            if self.is_inside(pair[0]) {
+                hole = 0.0;
+            } else {
+                first = first.min(length);
+                hole += step;
+            }
+            if hole > HOLE {
+                return false;
+            }
+            length += step;
+        }
+        first >= 0.5 * self.options.radius
     }
 
     pub(super) fn is_inside(&self, point: [f64; D]) -> bool {
