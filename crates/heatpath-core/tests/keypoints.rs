@@ -85,7 +85,6 @@ fn assert_found(
         let score = score(&found, curves);
         let loops = found.closing().count();
         let name = format!("{name}, {kind}, radius {radius}");
-        println!("{name}: {score:.3?}");
         assert_links_hold(&found);
         assert_eq!(found.stop, Stop::Complete);
         assert!(score.recall > 0.98 && score.gap <= gap, "{name}: {score:?}");

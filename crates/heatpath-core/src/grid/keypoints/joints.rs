@@ -35,7 +35,7 @@ pub(super) fn straighten<const D: usize>(
     links: &mut [Link<D>],
     exec: &Exec,
 ) -> Result<(), KeyPointError> {
-    let ends: Vec<[f64; D]> = links.iter().map(|link| end(link)).collect();
+    let ends: Vec<[f64; D]> = links.iter().map(end).collect();
     let found =
         search.each(&ends, exec, |number| Ok(Joint::new(search, links, number).led_on()))?;
     for (link, points) in links.iter_mut().zip(found) {
