@@ -7,10 +7,15 @@ use crate::grid::{Matrix, Shape};
 /// The eikonal equation along the axes of the grid: in a cell of speed c the squared derivatives add
 /// up to `1 / c^2`.
 ///
-/// There are two places of wall around the grid, so that no step needs to be checked.
+/// There are two places of wall around the grid, so that no step needs to be checked. Places are those
+/// of bricks, 8 cells wide along each axis, one after the other, and within a brick in the order of Morton
+/// (the bits of the coordinates in turn): cells that are near to each other are so in memory too, in
+/// few cache lines and pages.
 #[derive(Debug)]
 pub(super) struct Axes<const D: usize> {
-    frame: Shape<D>,
+    /// The number of bricks.
+    bricks: Shape<D>,
+    /// From a cell to the same one in the next brick along each axis.
     strides: [usize; D],
     /// One over the squared spacing, in cell units.
     per_step_sq: [f64; D],
@@ -18,43 +23,98 @@ pub(super) struct Axes<const D: usize> {
     speed_sq: Vec<f64>,
 }
 
-/// The width of the wall around the grid.
+/// The width of the wall around the grid, at least.
 const MARGIN: usize = 2;
+
+/// The width of a brick is two to the power of that.
+const BITS: usize = 3;
+const WIDTH: usize = 1 << BITS;
 
 impl<const D: usize> Axes<D> {
     /// The number of places for a grid, or the largest number if there are more.
     pub(super) fn places_around(shape: &Shape<D>) -> usize {
-        let sides = shape.size().map(|n| n.saturating_add(2 * MARGIN));
+        let sides = Self::bricks(shape).map(|bricks| bricks.saturating_mul(WIDTH));
         sides.into_iter().fold(1, usize::saturating_mul)
+    }
+
+    fn bricks(shape: &Shape<D>) -> [usize; D] {
+        shape.size().map(|n| n.saturating_add(2 * MARGIN).div_ceil(WIDTH))
     }
 
     pub(super) fn new(medium: &Medium<D>) -> Self {
         let (shape, mask, unit) =
             (*medium.shape(), medium.mask(), medium.shape().smallest_spacing());
-        let frame = shape.with_size(shape.size().map(|n| n + 2 * MARGIN));
+        let bricks = shape.with_size(Self::bricks(&shape));
         let mut axes = Self {
-            frame,
-            strides: std::array::from_fn(|axis| frame.stride(axis)),
+            bricks,
+            strides: std::array::from_fn(|axis| bricks.stride(axis) << (BITS * D)),
             per_step_sq: shape.spacing().map(|h| (unit / h).powi(2)),
-            speed_sq: vec![0.0; frame.cells()],
+            speed_sq: vec![0.0; Self::places_around(&shape)],
         };
+        let along_row = axes.along_row(shape.size()[0]);
         for row in shape.rows() {
-            let (cell, place) = (shape.position(row), axes.place(row));
-            for x in (0..shape.size()[0]).filter(|x| mask.is_open(cell + x)) {
-                axes.speed_sq[place + x] = medium.speed_sq(cell + x);
+            let (cell, first) = (shape.position(row), axes.place(row));
+            for (x, added) in along_row.iter().enumerate().filter(|(x, _)| mask.is_open(cell + x)) {
+                axes.speed_sq[first + added] = medium.speed_sq(cell + x);
             }
         }
         axes
+    }
+
+    /// The bits of a place that tell where it is in its brick.
+    const WITHIN: usize = (1 << (BITS * D)) - 1;
+
+    /// Those that tell it along an axis.
+    #[inline]
+    fn along(axis: usize) -> usize {
+        (0..BITS).map(|bit| 1 << (axis + bit * D)).sum()
+    }
+
+    /// The place of an index that counts the margin too.
+    #[inline]
+    fn place_around(&self, index: [usize; D]) -> usize {
+        let brick = self.bricks.position(index.map(|i| i >> BITS));
+        let bit = |axis: usize, bit: usize| (index[axis] >> bit & 1) << (axis + bit * D);
+        let along = |axis| (0..BITS).map(|number| bit(axis, number)).sum::<usize>();
+        (brick << (BITS * D)) + (0..D).map(along).sum::<usize>()
+    }
+
+    /// The index of a place, without the margin.
+    #[inline]
+    fn index(&self, place: usize) -> [usize; D] {
+        let brick = self.bricks.index(place >> (BITS * D));
+        std::array::from_fn(|axis| {
+            let bit = |bit| (place >> (axis + bit * D) & 1) << bit;
+            let within = (0..BITS).map(bit).sum::<usize>();
+            (brick[axis] * WIDTH + within).wrapping_sub(MARGIN)
+        })
+    }
+
+    /// The place that is 1 or 2 steps ahead or behind: a sum or difference of the bits along the axis,
+    /// which carries across the others.
+    #[inline]
+    fn step(&self, place: usize, axis: usize, steps: isize) -> usize {
+        let along = Self::along(axis);
+        let by = 1 << if steps.abs() == 1 { axis } else { axis + D };
+        let (moved, bricks) = if steps > 0 {
+            let sum = (place | !along & Self::WITHIN) & Self::WITHIN;
+            (sum + by, (sum + by) >> (BITS * D))
+        } else {
+            let difference = (place & along).wrapping_sub(by);
+            (difference, ((difference as isize) >> (BITS * D)) as usize)
+        };
+        (place & !along | moved & along).wrapping_add(bricks.wrapping_mul(self.strides[axis]))
     }
 }
 
 impl<const D: usize> Stencil<D, D> for Axes<D> {
     fn places(&self) -> usize {
-        self.frame.cells()
+        self.speed_sq.len()
     }
 
+    #[inline]
     fn place(&self, index: [usize; D]) -> usize {
-        self.frame.position(index.map(|i| i + MARGIN))
+        self.place_around(index.map(|i| i + MARGIN))
     }
 
     fn is_open(&self, place: usize) -> bool {
@@ -68,7 +128,7 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
 
     #[inline]
     fn neighbour(&self, place: usize, direction: usize, steps: isize) -> Option<usize> {
-        Some(place.wrapping_add_signed(steps * self.strides[direction] as isize))
+        Some(self.step(place, direction, steps))
     }
 
     #[inline]
@@ -83,8 +143,9 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
     }
 
     fn is_open_at(&self, point: [f64; D]) -> bool {
-        let point = point.map(|part| part + MARGIN as f64);
-        self.frame.contains(point) && self.is_open(self.frame.position(self.frame.cell_at(point)))
+        let cells = self.bricks.with_size(self.bricks.size().map(|n| n * WIDTH));
+        let around = point.map(|part| part + MARGIN as f64);
+        cells.contains(around) && self.is_open(self.place_around(cells.cell_at(around)))
     }
 
     fn vector(&self, _: usize, direction: usize) -> [f64; D] {
@@ -107,14 +168,15 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
         place: usize,
         mut visit: impl FnMut(usize, [usize; D], Option<usize>),
     ) {
-        let index = self.frame.index(place).map(|i| i - MARGIN);
-        for (axis, stride) in self.strides.into_iter().enumerate() {
+        let index = self.index(place);
+        for axis in 0..D {
             let (mut behind, mut ahead) = (index, index);
             // Wraps on a wall, which no one visits further.
             behind[axis] = behind[axis].wrapping_sub(1);
             ahead[axis] += 1;
-            visit(place - stride, behind, Some(place - 2 * stride));
-            visit(place + stride, ahead, Some(place + 2 * stride));
+            let at = |steps| self.step(place, axis, steps);
+            visit(at(-1), behind, Some(at(-2)));
+            visit(at(1), ahead, Some(at(2)));
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::seed::Seed;
 use super::stencil::Stencil;
-use super::update::{Difference, Differences};
+use super::update::{Difference, Differences, larger_root};
+use super::value::choose;
 use crate::grid::tensor::apply;
 
 /// The known neighbours in one direction, on the side where they are nearer.
@@ -56,8 +57,43 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         Self { stencil, seed, place, index, covector, r_sq, per_r_sq: 1.0 / r_sq }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn solve(&self, upwinds: &[Upwind; N], second_order: bool) -> Option<f64> {
+        self.solve_with_all(upwinds, second_order)
+            .or_else(|| self.solve_with_some(upwinds, second_order))
+    }
+
+    /// The distance in the usual case that it comes from all known neighbours and from nothing else;
+    /// `None` in others. It neither sorts nor jumps, nor do the functions that it is made of pass
+    /// numbers through memory: each of these takes longer than the sums.
+    #[inline(always)]
+    fn solve_with_all(&self, upwinds: &[Upwind; N], second_order: bool) -> Option<f64> {
+        let nearest = upwinds.iter().map(|upwind| upwind.near).fold(f64::INFINITY, f64::min);
+        let mut farthest = nearest;
+        let (mut any_missing, mut any_alone) = (false, false);
+        let mut differences = [Difference::default(); N];
+        for (direction, upwind) in upwinds.iter().enumerate() {
+            let is_missing = upwind.near == f64::INFINITY;
+            any_missing |= is_missing;
+            any_alone |= is_missing & self.counts_alone(direction, upwind);
+            let near = choose(is_missing, nearest, upwind.near);
+            farthest = farthest.max(near);
+            let found = self.difference(direction, &Upwind { near, ..*upwind }, second_order);
+            let weight = choose(is_missing, 0.0, found.weight);
+            differences[direction] = Difference { weight, ..found };
+        }
+        if any_alone || (any_missing && self.stencil.has_closed_side(self.place)) {
+            return None;
+        }
+        let distance = larger_root(&differences, nearest)?;
+        let counts = differences.iter().fold(distance >= farthest, |counts, d| {
+            counts & ((d.weight == 0.0) | ((d.slope > 0.0) & (d.slope * distance >= d.rest)))
+        });
+        counts.then_some(distance)
+    }
+
+    /// The distance in any case.
+    fn solve_with_some(&self, upwinds: &[Upwind; N], second_order: bool) -> Option<f64> {
         let nearest = upwinds.iter().map(|upwind| upwind.near).fold(f64::INFINITY, f64::min);
         let mut differences = Differences::<N>::new();
         for (direction, upwind) in upwinds.iter().enumerate() {
@@ -74,30 +110,34 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         distance
     }
 
-    /// The derivative of r, in a direction from which no neighbour of this source is known although the
-    /// source lies there: less than a step away, or behind a neighbour that another source is nearer
-    /// to.
-    #[inline]
+    /// The derivative of r, in a direction that counts by it alone.
     pub(super) fn of_r_alone(
         &self,
         direction: usize,
         upwind: &Upwind,
         near: f64,
     ) -> Option<Difference> {
-        let along = self.stencil.along(self.place, direction, &self.covector);
-        let step_sq = self.stencil.length_sq(self.place, direction, &self.seed.metric);
-        let is_beside = along != 0.0 && along.abs() < step_sq;
-        let is_behind = upwind.is_foreign && (along > 0.0) == (upwind.side < 0);
-        (is_beside || is_behind).then(|| {
+        self.counts_alone(direction, upwind).then(|| {
+            let along = self.stencil.along(self.place, direction, &self.covector);
             let slope = along.abs() * self.per_r_sq;
             let weight = self.stencil.weight(self.place, direction);
             Difference { weight, slope, rest: slope * self.seed.initial, near }
         })
     }
 
+    /// Whether no neighbour of this source is known in a direction although the source lies there: less
+    /// than a step away, or behind a neighbour that another source is nearer to.
+    #[inline]
+    fn counts_alone(&self, direction: usize, upwind: &Upwind) -> bool {
+        let along = self.stencil.along(self.place, direction, &self.covector);
+        let step_sq = self.stencil.length_sq(self.place, direction, &self.seed.metric);
+        let is_beside = (along != 0.0) & (along.abs() < step_sq);
+        is_beside | (upwind.is_foreign & ((along > 0.0) == (upwind.side < 0)))
+    }
+
     /// With `T = r tau`, the derivative away from the neighbour is `T (n + r'/r) - r rest(tau)`,
     /// where n is 1 or 3/2 by the order of the difference of tau.
-    #[inline]
+    #[inline(always)]
     pub(super) fn difference(
         &self,
         direction: usize,
@@ -112,37 +152,33 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         let step_sq = stencil.length_sq(place, direction, &self.seed.metric);
         // Where T grows towards the source (within 60 degrees), on the way around a wall, tau is not
         // smooth: T itself is.
-        let is_factored = away > 0.0 || away * away < 0.25 * self.r_sq * step_sq;
+        let is_factored = (away > 0.0) | (away * away < 0.25 * self.r_sq * step_sq);
         let growth = if is_factored { away * self.per_r_sq } else { 0.0 };
-        // r times the factor tau of the neighbour that many steps back.
-        let carried = |distance: f64, steps: f64| {
-            if !is_factored {
-                return distance - initial;
-            }
-            // r'^2 = (1 - x) r^2
-            let x = (2.0 * steps * away - steps * steps * step_sq) * self.per_r_sq;
-            if 1.0 - x > 1e-9 * self.per_r_sq * step_sq {
-                (distance - initial) * one_over_sqrt_one_minus(x)
-            } else {
-                // At the source itself tau is 1.
-                self.r_sq.sqrt()
-            }
-        };
-        let (slope, rest) = if second_order && next < near {
-            (1.5 + growth, 2.0 * carried(near, 1.0) - 0.5 * carried(next, 2.0))
-        } else {
-            (1.0 + growth, carried(near, 1.0))
-        };
+        let is_second = second_order & (next < near);
+        let distances = [near, choose(is_second, next, near)].map(|distance| distance - initial);
+        // r times the factor tau of the neighbours one and two steps back.
+        let [first, second] =
+            if is_factored { self.carried(distances, away, step_sq) } else { distances };
+        let (steps, rest) =
+            (choose(is_second, 1.5, 1.0), choose(is_second, 2.0 * first - 0.5 * second, first));
+        let slope = steps + growth;
         Difference { weight, slope, rest: rest + slope * initial, near }
     }
-}
 
-/// `1 / sqrt(1 - x)`; far from the source, where x is small, by its series, which is faster.
-#[inline]
-fn one_over_sqrt_one_minus(x: f64) -> f64 {
-    if x.abs() < 1.0 / 64.0 {
-        1.0 + x * (0.5 + x * (0.375 + x * (0.3125 + x * (0.2734375 + x * 0.24609375))))
-    } else {
-        1.0 / (1.0 - x).sqrt()
+    /// `T r / r'` of the neighbours one and two steps back.
+    #[inline(always)]
+    fn carried(&self, distances: [f64; 2], away: f64, step_sq: f64) -> [f64; 2] {
+        let shares = [1.0, 2.0]
+            .map(|steps: f64| 1.0 - (2.0 * steps * away - steps * steps * step_sq) * self.per_r_sq);
+        // r'^2 over r^2
+        let least = 1e-9 * self.per_r_sq * step_sq;
+        if (shares[0] > least) & (shares[1] > least) {
+            return [distances[0] / shares[0].sqrt(), distances[1] / shares[1].sqrt()];
+        }
+        // At the source itself tau is 1.
+        let carried = |i: usize| {
+            if shares[i] > least { distances[i] / shares[i].sqrt() } else { self.r_sq.sqrt() }
+        };
+        [carried(0), carried(1)]
     }
 }

@@ -6,9 +6,10 @@ use super::queue::{Entry, Queue};
 use super::seed::Seed;
 use super::stencil::Stencil;
 use super::update::{Difference, Differences};
-use super::value::Value;
+use super::value::{Value, choose};
 use crate::exec::{Cancelled, Exec};
 use std::collections::BTreeSet;
+use std::hint::{black_box, select_unpredictable};
 
 /// The distances so far, place by place.
 pub(super) struct Front<'a, const D: usize, const N: usize, S> {
@@ -28,6 +29,24 @@ pub(super) const REPORT_EVERY: usize = 1 << 15;
 /// more leaves room for smooth media; in mazes and rough media, where T / r is far from smooth, it
 /// catches what would overshoot.
 const LARGEST_STEP_SQ: f64 = 1.21;
+
+/// Reads what will be needed as soon as the cell at a place is known: a slot's cells are many, and
+/// their memory comes faster all at once than one after the other. In volumes, where most of it is not
+/// in a cache, this saves a fourth of the time or more; pictures and tensors would only
+/// pay for it.
+#[inline]
+fn read_around<const D: usize, const N: usize>(
+    stencil: &impl Stencil<D, N>,
+    values: &[Value],
+    place: usize,
+) {
+    for direction in 0..N {
+        for side in [-1, 1] {
+            stencil.neighbour(place, direction, side).map(|at| black_box(stencil.is_open(at)));
+            stencil.neighbour(place, direction, 2 * side).map(|at| black_box(values[at]));
+        }
+    }
+}
 
 impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     pub(super) fn new(stencil: &'a S, seeds: &'a [Seed<D>], order: Order, width: f64) -> Self {
@@ -80,7 +99,15 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
 
     fn pop(&mut self) -> Option<Entry> {
         let values = &self.values;
-        self.queue.pop(|entry| values[entry.place as usize].is_trial(entry.distance))
+        let stencil = self.stencil;
+        self.queue.pop(|place| {
+            let place = place as usize;
+            let trial = values[place].as_trial()?;
+            if D > 2 && N == D {
+                read_around(stencil, values, place);
+            }
+            Some(trial)
+        })
     }
 
     /// The distance of the cell at a place, infinite if it is not known.
@@ -155,7 +182,7 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         best
     }
 
-    #[inline]
+    #[inline(always)]
     fn distance_from(
         &self,
         seed: u32,
@@ -165,9 +192,10 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     ) -> f64 {
         let factor = Factor::new(self.stencil, &self.seeds[seed as usize], place, index);
         let is_plausible = |distance: &f64| {
-            upwinds.iter().enumerate().all(|(direction, upwind)| {
+            upwinds.iter().enumerate().fold(true, |is_plausible, (direction, upwind)| {
                 let step = (distance - upwind.near).max(0.0);
-                self.stencil.weight(place, direction) * step * step <= LARGEST_STEP_SQ
+                let weight = self.stencil.weight(place, direction);
+                is_plausible & (weight * step * step <= LARGEST_STEP_SQ)
             })
         };
         (if self.second_order { factor.solve(upwinds, true) } else { None })
@@ -177,19 +205,21 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             .unwrap_or(f64::INFINITY)
     }
 
-    #[inline]
+    /// The known neighbours of a cell in one direction, on the nearer side. Those of both sides are
+    /// read: where they come from memory, all are under way at once.
+    #[inline(always)]
     fn upwind(&self, place: usize, direction: usize) -> Upwind {
-        let neighbour = |steps| {
-            let place = self.stencil.neighbour(place, direction, steps)?;
-            Some((place, self.distance(place)))
+        let neighbour = |steps| match self.stencil.neighbour(place, direction, steps) {
+            Some(place) => (place, self.distance(place)),
+            None => (place, f64::INFINITY),
         };
-        let unknown = (place, f64::INFINITY);
-        let (behind, ahead) = (neighbour(-1).unwrap_or(unknown), neighbour(1).unwrap_or(unknown));
-        let (side, (place, near)) = if ahead.1 < behind.1 { (1, ahead) } else { (-1, behind) };
-        let seed = self.nearest(place);
-        let next = neighbour(2 * side).filter(|&(place, _)| self.nearest(place) == seed);
-        let next = next.map_or(f64::INFINITY, |(_, distance)| distance);
-        Upwind { side, near, next, seed, is_foreign: false }
+        let (behind, ahead) = ([neighbour(-1), neighbour(-2)], [neighbour(1), neighbour(2)]);
+        let is_ahead = ahead[0].1 < behind[0].1;
+        let places = [0, 1].map(|i| select_unpredictable(is_ahead, ahead[i].0, behind[i].0));
+        let [near, next] = [0, 1].map(|i| choose(is_ahead, ahead[i].1, behind[i].1));
+        let seed = self.nearest(places[0]);
+        let next = if self.nearest(places[1]) == seed { next } else { f64::INFINITY };
+        Upwind { side: 2 * isize::from(is_ahead) - 1, near, next, seed, is_foreign: false }
     }
 
     /// The distance without factor, to first order: there always is one.

@@ -73,7 +73,7 @@ pub enum EikonalError {
     /// The grid is too large for the numbers of its cells.
     #[error("the grid has {cells} cells; fast marching takes up to {most}")]
     TooLarge {
-        /// The number of cells, in isotropic media with a rim of two around them.
+        /// The number of cells, in isotropic media with those of a rim around them.
         cells: usize,
         /// The largest number.
         most: usize,
@@ -177,7 +177,7 @@ impl<'a, const D: usize> Eikonal<'a, D> {
     /// Prepares a medium, borrowed or owned.
     ///
     /// # Errors
-    /// The grid, with a rim of two cells, has more than 4 billion cells, or 230 million with tensors.
+    /// The grid, with a rim of up to 11 cells, has more than 4 billion cells, or 230 million with tensors.
     pub fn new(medium: impl Into<Cow<'a, Medium<D>>>, exec: &Exec) -> Result<Self, EikonalError> {
         let medium = medium.into();
         let is_tensor = medium.diffusion().tensor().is_some();
@@ -276,8 +276,12 @@ impl<'a, const D: usize> Eikonal<'a, D> {
         let targets = targets.map(|cell| stencil.place(shape.index(cell))).collect();
         let mut front = Front::new(stencil, &seeds, options.order, self.width);
         front.march(options.farthest / unit, targets, exec)?;
+        let along_row = &stencil.along_row(shape.size()[0]);
         let places = || {
-            shape.rows().flat_map(|row| (0..shape.size()[0]).map(move |x| stencil.place(row) + x))
+            shape.rows().flat_map(|row| {
+                let first = stencil.place(row);
+                along_row.iter().map(move |added| first + added)
+            })
         };
         let distances = places().map(|place| unit * front.distance(place)).collect();
         let nearest =

@@ -11,8 +11,19 @@ pub(super) trait Stencil<const D: usize, const N: usize> {
     /// The number of places.
     fn places(&self) -> usize;
 
-    /// The place of a cell.
+    /// The place of a cell: a sum of what each coordinate adds.
     fn place(&self, index: [usize; D]) -> usize;
+
+    /// What is added to the place of the first cell of a row for each of its cells.
+    fn along_row(&self, cells: usize) -> Vec<usize> {
+        let mut index = [0; D];
+        let first = self.place(index);
+        let added = |x| {
+            index[0] = x;
+            self.place(index) - first
+        };
+        (0..cells).map(added).collect()
+    }
 
     /// Whether there is an open cell at a place.
     fn is_open(&self, place: usize) -> bool;

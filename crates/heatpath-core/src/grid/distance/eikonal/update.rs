@@ -57,7 +57,7 @@ impl<const N: usize> Differences<N> {
             return (last > self.items[0].near).then_some(last);
         }
         loop {
-            let distance = self.larger_root(count);
+            let distance = larger_root(&self.items[..count], self.items[0].near);
             let shrinks = |d: &Difference| d.slope * distance.unwrap_or(last) < d.rest;
             let Some(place) = self.items[..count].iter().position(shrinks) else {
                 return distance;
@@ -76,20 +76,20 @@ impl<const N: usize> Differences<N> {
         });
         squares.sum::<f64>() - 1.0
     }
+}
 
-    /// The larger root of the equation over the nearest neighbours.
-    #[inline]
-    fn larger_root(&self, count: usize) -> Option<f64> {
-        // Counted from the nearest neighbour: the squares of large distances would cancel.
-        let origin = self.items[0].near;
-        let (mut a, mut b, mut c) = (0.0, 0.0, -1.0);
-        for &Difference { weight, slope, rest, .. } in &self.items[..count] {
-            let rest = rest - slope * origin;
-            a += weight * slope * slope;
-            b += weight * slope * rest;
-            c += weight * rest * rest;
-        }
-        let distance = origin + (b + (b * b - a * c).sqrt()) / a;
-        (distance >= origin && distance < f64::INFINITY).then_some(distance)
+/// The larger root of the equation over some neighbours, of which the nearest is at the distance
+/// `origin`; `None` if there is none beyond that.
+#[inline]
+pub(super) fn larger_root(differences: &[Difference], origin: f64) -> Option<f64> {
+    // Counted from the nearest neighbour: the squares of large distances would cancel.
+    let (mut a, mut b, mut c) = (0.0, 0.0, -1.0);
+    for &Difference { weight, slope, rest, .. } in differences {
+        let rest = rest - slope * origin;
+        a += weight * slope * slope;
+        b += weight * slope * rest;
+        c += weight * rest * rest;
     }
+    let distance = origin + (b + (b * b - a * c).sqrt()) / a;
+    (distance >= origin && distance < f64::INFINITY).then_some(distance)
 }
