@@ -59,8 +59,9 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
 
     #[inline(always)]
     pub(super) fn solve(&self, upwinds: &[Upwind; N], second_order: bool) -> Option<f64> {
-        self.solve_with_all(upwinds, second_order)
-            .or_else(|| self.solve_with_some(upwinds, second_order))
+        // Of the six directions of a tensor in space seldom all count.
+        let with_all = if N > 3 { None } else { self.solve_with_all(upwinds, second_order) };
+        with_all.or_else(|| self.solve_with_some(upwinds, second_order))
     }
 
     /// The distance in the usual case that it comes from all known neighbours and from nothing else;

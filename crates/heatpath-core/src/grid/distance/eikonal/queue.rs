@@ -53,8 +53,8 @@ impl Eq for Entry {}
 ///
 /// The future is divided into slots of equal width. The cells of later slots are piles of places, in
 /// no order; those of the current slot, some dozens, are sorted when it opens. What comes into
-/// the current slot after that, little, is a heap. A cell that comes nearer is pushed once more: who
-/// pops an entry with another distance than the cell now has passes it over.
+/// the current slot after that, little, is a heap. A cell that comes nearer is pushed once more, and
+/// popped as often: whoever pops passes over entries of cells that are known or nearer.
 #[derive(Debug)]
 pub(super) struct Queue {
     slots_per_unit: f64,
@@ -108,8 +108,8 @@ impl Queue {
         }
     }
 
-    /// The nearest entry. `distance` is asked for what the cell at a place has been pushed with last;
-    /// `None` if it need not be popped any more.
+    /// The nearest entry. `distance` is asked, when a slot opens, for what the cell at a place has been
+    /// pushed with last; `None` if it need not be popped any more.
     #[inline]
     pub(super) fn pop(&mut self, distance: impl Fn(u32) -> Option<f64>) -> Option<Entry> {
         loop {
@@ -181,10 +181,11 @@ mod tests {
         queue.push(Entry { distance: 3.0, place: 1 });
         distances[0] = 2.0;
         queue.push(Entry { distance: 2.0, place: 0 });
-        let popped: Vec<u32> = std::iter::from_fn(|| queue.pop(|p| Some(distances[p as usize])))
-            .map(|entry| entry.place)
-            .collect();
-        assert_eq!(popped[..2], [0, 1], "nearest first");
+        let popped: Vec<(f64, u32)> =
+            std::iter::from_fn(|| queue.pop(|place| Some(distances[place as usize])))
+                .map(|entry| (entry.distance, entry.place))
+                .collect();
+        assert_eq!(popped, [(2.0, 0), (2.0, 0), (3.0, 1)]);
     }
 
     #[test]
@@ -194,7 +195,8 @@ mod tests {
         queue.push(Entry { distance: f64::MAX, place: 3 });
         assert_eq!(queue.pop(|_| Some(f64::MAX)).map(|entry| entry.place), Some(3));
         assert!(queue.pop(|_| Some(0.0)).is_none());
+        let mut queue = Queue::new(1.0);
         queue.push(Entry { distance: 5.0, place: 2 });
-        assert!(queue.pop(|_| None).is_none());
+        assert!(queue.pop(|_| None).is_none(), "a cell that need not be popped");
     }
 }
