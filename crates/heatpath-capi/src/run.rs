@@ -71,7 +71,8 @@ pub(crate) fn rounds<'a>(
     together: usize,
 ) -> impl Iterator<Item = Result<(Range<usize>, Exec<'a>), Cancelled>> {
     let share = move |done: usize| done as f64 / count as f64;
-    (0..count).step_by(together).map(move |begin| {
+    (0..count.div_ceil(together)).map(move |round| {
+        let begin = round * together;
         let places = begin..count.min(begin + together);
         let round = exec.part(share(places.start), share(places.end));
         round.report(0.0).map(|()| (places, round))

@@ -1,9 +1,9 @@
-//! The figures that show paths: 5, 6, 9 and 10.
+//! The figures that show paths: 5, 6, 7, 9 and 10.
 
 use super::panels::dot;
 use super::scenes::{
-    CENTRE, CURVE_ENDS, TUBE, U_ENDS, around, clean_curve, gaussian, noisy_curve,
-    off_the_noisy_curve, spiral, spiral_ends, u_tube,
+    CENTRE, CURVE_ENDS, ROAD_ENDS, TUBE, U_ENDS, around, clean_curve, gaussian, noisy_curve,
+    off_the_noisy_curve, road, road_points, spiral, spiral_ends, u_tube,
 };
 use super::{alpha, assert_figure, flow_with, panel, picture_panel};
 use heatpath_core::Exec;
@@ -164,6 +164,41 @@ fn figures_6_and_10_tubes() {
         assert!(inside[1].iter().all(|&part| part >= 0.99), "out of the tube: {inside:?}");
         assert_figure(name, &panels);
     }
+}
+
+/// Figure 7: a thin road between fields, in the medium of eq. (6) by fast marching and by heat, and by
+/// heat along edges, eq. (11), and in homogeneous parts, eq. (8).
+#[test]
+fn figure_7_road() {
+    let (image, points) = (road(), road_points());
+    let similar = alpha(&image, ROAD_ENDS[0], 2.0);
+    let edges = medium::edges(&image, Default::default()).unwrap();
+    let homogeneous = medium::perona_malik(&image, Default::default()).unwrap();
+    let heat = |medium, steps| by_heat(medium, ROAD_ENDS, steps).0;
+    let paths = [
+        by_fast_marching(&similar, ROAD_ENDS, Order::First),
+        heat(&similar, 2000),
+        heat(&edges, 12_000),
+        heat(&homogeneous, 2000),
+    ];
+    let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= 2.0;
+    let scores = paths.each_ref().map(|path| {
+        let found = points.iter().filter(|&&p| path.points.iter().any(|&other| near(p, other)));
+        let on_the_road = |point| f64::from(points.iter().any(|&other| near(point, other)));
+        [found.count() as f64 / points.len() as f64, mean_along(path, on_the_road)]
+    });
+    println!("fast marching, heat by (6), (11), (8): recall, precision {scores:.3?}");
+    for other in [0, 1, 3] {
+        assert!((0..2).all(|i| scores[2][i] > scores[other][i] + 0.1), "{scores:?}");
+    }
+    assert!(scores[2][0] > 0.8 && scores[3][0] < 0.2, "{scores:?}");
+    let [fast_marching, by_6, by_11, by_8] = &paths;
+    let panels = [
+        picture_panel(&image, &ROAD_ENDS[..1]),
+        paths_panel(&image, [fast_marching, by_6]),
+        paths_panel(&image, [by_8, by_11]),
+    ];
+    assert_figure("figure_7_road.png", &panels);
 }
 
 /// Figure 9: where 13.3 % of the pixels are corrupted, heat keeps to a curve better than fast

@@ -127,6 +127,45 @@ fn tube(off: f64) -> f64 {
 /// Inside the tubes the grey value is above this, half way between the middle and the ground.
 pub(crate) const TUBE: f64 = 0.525;
 
+/// The ends of the road.
+pub(crate) const ROAD_ENDS: [[f64; 2]; 2] = [[ROAD_X, 4.0], [ROAD_X, 295.0]];
+
+/// The x of the road at its ends.
+const ROAD_X: f64 = 150.0;
+
+/// The points of the road, half a pixel apart or less, from top to bottom.
+pub(crate) fn road_points() -> Vec<[f64; 2]> {
+    let [top, bottom] = ROAD_ENDS.map(|end| end[1]);
+    let at = |i: i32| top + (bottom - top) * f64::from(i) / 1200.0;
+    let x = |y: f64| {
+        let part = (y - top) / (bottom - top);
+        ROAD_X + 35.0 * (TAU * part).sin() - 15.0 * (2.0 * TAU * part).sin()
+    };
+    (0..=1200).map(|i| [x(at(i)), at(i)]).collect()
+}
+
+/// A thin bright road between fields of several greys, some almost as bright; everything a little
+/// uneven.
+pub(crate) fn road() -> Grid<f64, 2> {
+    let points = road_points();
+    let mut random = random(7);
+    let greys: Vec<f64> = (0..64).map(|_| 0.1 + 0.55 * random()).collect();
+    let fields = draw(|x, y| {
+        let (across, down) = (x + 0.35 * y, y - 0.2 * x + 60.0);
+        greys[(across / 52.0) as usize % 8 * 8 + (down / 47.0) as usize % 8]
+    });
+    let shape = *fields.shape();
+    let road = Grid::from_fn(shape, |[x, y]| {
+        let off = |&[a, b]: &[f64; 2]| (x as f64 - a).hypot(y as f64 - b);
+        points.iter().map(off).fold(f64::INFINITY, f64::min)
+    });
+    Grid::from_fn(shape, |cell| {
+        let part = (1.6 - road[cell]).clamp(0.0, 1.0);
+        let grey = fields[cell] + part * (0.9 - fields[cell]);
+        (grey + 0.08 * (random() - 0.5)).clamp(0.0, 1.0)
+    })
+}
+
 /// The ends of the noisy curve.
 pub(crate) const CURVE_ENDS: [[f64; 2]; 2] = [[20.0, 150.0], [280.0, 150.0]];
 

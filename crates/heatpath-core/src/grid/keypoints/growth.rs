@@ -261,7 +261,12 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             Ok((last[number].from, rest(self.search, &last[number].path.points)))
         })?;
         for (to, mut points) in rests {
-            if points.len() > 1 && !self.is_full() {
+            let end = points.last().copied();
+            let is_known = |end| {
+                let mut others = self.links.iter().filter(|link| link.from != to);
+                others.any(|link| passes(&link.path.points, end, APART))
+            };
+            if points.len() > 1 && !self.is_full() && !end.is_some_and(is_known) {
                 points.insert(0, self.points[to].point);
                 points.reverse();
                 let medium = self.search.medium;

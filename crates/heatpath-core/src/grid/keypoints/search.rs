@@ -57,6 +57,10 @@ pub(super) const APART: f64 = 5.0;
 /// to another 7 cells beside it.
 const HOLE: f64 = 2.0;
 
+/// The least strength beyond a hole, as part of that of any other branch. At forks of generated trees it
+/// is 0.5 or more, of the edge of a shadow beside a catheter 0.2.
+const WEAKEST: f64 = 1.0 / 3.0;
+
 /// By how many cells the circles for tips shrink.
 pub(super) const TIP_STEP: f64 = 2.0;
 
@@ -148,6 +152,9 @@ impl<'a, const D: usize> Search<'a, D> {
                 on_first = if level == 0 { peaks.len() } else { on_first };
             }
         }
+        let strengths = peaks[..on_first].iter().map(|peak| self.strength(&peak.path.points));
+        let weakest = strengths.fold(f64::INFINITY, f64::min);
+        beyond.retain(|peak| self.strength(&peak.path.points) >= WEAKEST * weakest);
         let tips = peaks.split_off(on_first);
         let region = Region::new(self, &flow, point, &peaks);
         Ok(Visit { flow, peaks, tips, region, beyond })
@@ -196,11 +203,23 @@ impl<'a, const D: usize> Search<'a, D> {
         first >= 0.5 * self.options.radius
     }
 
+    /// How strong a structure is at its end: the mean squared speed on the last half radius of the
+    /// path to it.
+    fn strength(&self, points: &[[f64; D]]) -> f64 {
+        let end = points[0];
+        let first =
+            points.iter().take_while(|&&point| self.apart(point, end) <= 0.5 * self.options.radius);
+        let speeds: Vec<f64> = first.map(|&point| self.speed_sq(point)).collect();
+        speeds.iter().sum::<f64>() / speeds.len() as f64
+    }
+
     pub(super) fn is_inside(&self, point: [f64; D]) -> bool {
+        self.speed_sq(point) >= self.options.least_speed_sq
+    }
+
+    fn speed_sq(&self, point: [f64; D]) -> f64 {
         let shape: &Shape<D> = self.medium.shape();
-        let speed_sq: f64 =
-            corners(shape, point).map(|(cell, weight)| weight * self.medium.speed_sq(cell)).sum();
-        speed_sq >= self.options.least_speed_sq
+        corners(shape, point).map(|(cell, weight)| weight * self.medium.speed_sq(cell)).sum()
     }
 }
 
