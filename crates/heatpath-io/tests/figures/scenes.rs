@@ -144,8 +144,7 @@ pub(crate) fn road_points() -> Vec<[f64; 2]> {
     (0..=1200).map(|i| [x(at(i)), at(i)]).collect()
 }
 
-/// A thin bright road between fields of several greys, some almost as bright; everything a little
-/// uneven.
+/// A thin bright road between fields of several greys; everything a little uneven.
 pub(crate) fn road() -> Grid<f64, 2> {
     let points = road_points();
     let mut random = random(7);
