@@ -241,11 +241,12 @@ impl<const D: usize> Tiles<D> {
                 return Ok(None);
             }
             let next = done + self.tiling.steps;
-            if (lost.some || lost.nearly) && self.may_lose_nothing(steps, next) {
-                if let Some(tiling) = finer.next() {
-                    self = self.cut(tiling);
-                    windows = self.windows(steps, exec);
-                }
+            if (lost.some || lost.nearly)
+                && self.may_lose_nothing(steps, next)
+                && let Some(tiling) = finer.next()
+            {
+                self = self.cut(tiling);
+                windows = self.windows(steps, exec);
             }
         }
         let exposure: Vec<_> = self.visited.into_iter().map(|visited| visited.exposure).collect();
