@@ -84,7 +84,7 @@ pub(super) fn nearly_lost(steps: usize) -> f64 {
 
 /// The largest of some values that are not negative.
 ///
-/// Eight at a time, because the comparisons of one maximum wait for each other.
+/// Many at a time, because the comparisons of one maximum wait for each other.
 #[inline(always)]
 pub(super) fn largest(values: &[f64]) -> f64 {
     const LANES: usize = 32;
