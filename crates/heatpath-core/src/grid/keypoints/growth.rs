@@ -98,7 +98,7 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
                         self.missed.push(branch);
                     }
                     None if self.is_full() => {}
-                    None => self.add(branch),
+                    None => self.add(branch.path, Some(branch.ln_temperature)),
                 },
             }
         }
@@ -109,12 +109,11 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     }
 
     /// Adds a key point and the path to its parent.
-    fn add(&mut self, branch: Branch<D>) {
-        let Ending::Source(parent) = branch.path.ending else { return };
-        let (from, point) = (self.points.len(), branch.point());
-        let ln_temperature = Some(branch.ln_temperature);
+    fn add(&mut self, path: Path<D>, ln_temperature: Option<f64>) {
+        let Ending::Source(parent) = path.ending else { return };
+        let (from, point) = (self.points.len(), path.points[0]);
         self.points.push(KeyPoint { point, parent: Some(parent), ln_temperature });
-        self.links.push(Link { from, to: parent, path: branch.path });
+        self.links.push(Link { from, to: parent, path });
     }
 
     /// The key point of state 1, other than `number`, in whose region a point lies; of several the
@@ -235,16 +234,16 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
     /// Adds those of some branches where no path passes by.
     fn add_unknown(&mut self, branches: Vec<Branch<D>>) {
         for branch in branches {
-            if !self.is_full() && !self.is_known(branch.point()) {
-                self.add(branch);
+            if !self.is_full() && !self.is_known(branch.point(), None) {
+                self.add(branch.path, Some(branch.ln_temperature));
             }
         }
     }
 
-    /// Whether a path passes by a point.
-    fn is_known(&self, point: [f64; D]) -> bool {
+    /// Whether a path passes by a point, other than that `from` a key point.
+    fn is_known(&self, point: [f64; D], from: Option<usize>) -> bool {
         let reach = 2.0 * self.search.options.radius;
-        self.links.iter().any(|link| {
+        self.links.iter().filter(|link| Some(link.from) != from).any(|link| {
             cells_between(self.points[link.to].point, point) < reach
                 && passes(&link.path.points, point, APART)
         })
@@ -261,20 +260,13 @@ impl<'a, 'm, const D: usize> Growth<'a, 'm, D> {
             Ok((last[number].from, rest(self.search, &last[number].path.points)))
         })?;
         for (to, mut points) in rests {
-            let end = points.last().copied();
-            let is_known = |end| {
-                let mut others = self.links.iter().filter(|link| link.from != to);
-                others.any(|link| passes(&link.path.points, end, APART))
-            };
-            if points.len() > 1 && !self.is_full() && !end.is_some_and(is_known) {
-                points.insert(0, self.points[to].point);
-                points.reverse();
+            points.reverse();
+            points.push(self.points[to].point);
+            let goes_on = points.len() > 2 && !self.is_known(points[0], Some(to));
+            if goes_on && !self.is_full() {
                 let medium = self.search.medium;
                 let cost = medium.cost(&points);
-                let path = Path::new(points, Ending::Source(to), cost, medium);
-                let (from, point) = (self.points.len(), path.points[0]);
-                self.points.push(KeyPoint { point, parent: Some(to), ln_temperature: None });
-                self.links.push(Link { from, to, path });
+                self.add(Path::new(points, Ending::Source(to), cost, medium), None);
             }
         }
         Ok(())

@@ -177,9 +177,8 @@ impl<'a, 'm, const D: usize> Joint<'a, 'm, D> {
     /// The way along one link, or two, from a point of one to the key point where this link ends.
     fn along(&self, foot: Foot) -> Option<Vec<[f64; D]>> {
         let first = &self.links[foot.link];
-        let (on, back) = (first.path.points[foot.point..].to_vec(), {
-            first.path.points[..=foot.point].iter().rev().copied().collect()
-        });
+        let on = first.path.points[foot.point..].to_vec();
+        let back = first.path.points[..=foot.point].iter().rev().copied().collect();
         let to = self.link.to;
         let mut ways: [(usize, Vec<[f64; D]>); 2] = [(first.to, on), (first.from, back)];
         if let Some((_, way)) = ways.iter_mut().find(|(end, _)| *end == to) {

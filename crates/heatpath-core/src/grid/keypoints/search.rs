@@ -207,10 +207,9 @@ impl<'a, const D: usize> Search<'a, D> {
     /// path to it.
     fn strength(&self, points: &[[f64; D]]) -> f64 {
         let end = points[0];
-        let first =
-            points.iter().take_while(|&&point| self.apart(point, end) <= 0.5 * self.options.radius);
-        let speeds: Vec<f64> = first.map(|&point| self.speed_sq(point)).collect();
-        speeds.iter().sum::<f64>() / speeds.len() as f64
+        let is_last = |&&point: &&[f64; D]| self.apart(point, end) <= 0.5 * self.options.radius;
+        let count = points.iter().take_while(is_last).count();
+        points[..count].iter().map(|&point| self.speed_sq(point)).sum::<f64>() / count as f64
     }
 
     pub(super) fn is_inside(&self, point: [f64; D]) -> bool {

@@ -3,13 +3,12 @@
 use super::Link;
 use super::search::Search;
 use super::window::box_around;
-use crate::grid::sample::corners;
 use crate::grid::skeleton::radii;
 use crate::grid::{Grid, structure};
 
-/// The structure around a point: how far its edge is. All lengths are in cell units.
-pub(super) struct Surroundings<'a, 'm, const D: usize> {
-    search: &'a Search<'m, D>,
+/// The structure around a point: how far its edge is, at most half a radius, as circles are wider than
+/// tubes. All lengths are in cell units.
+pub(super) struct Surroundings<const D: usize> {
     low: [usize; D],
     radii: Grid<f64, D>,
 }
@@ -26,25 +25,22 @@ pub(super) struct Foot {
 /// How many cells a path may lie beside the middle of its tube.
 const BESIDE: usize = 3;
 
-impl<'a, 'm, const D: usize> Surroundings<'a, 'm, D> {
+impl<const D: usize> Surroundings<D> {
     /// Of a point as far as a circle around it, and as far as its tube may be wide.
-    pub(super) fn new(search: &'a Search<'m, D>, point: [f64; D]) -> Self {
+    pub(super) fn new(search: &Search<'_, D>, point: [f64; D]) -> Self {
         let radius = search.options.radius;
         let (low, size) = box_around(search.medium.shape(), point, (1.5 * radius).ceil() as usize);
         let medium = search.medium.cropped(low, size);
-        let radii = radii(&structure(&medium, search.options.least_speed_sq));
-        Self { search, low, radii }
+        let unit = medium.shape().smallest_spacing();
+        let radii = radii(&structure(&medium, search.options.least_speed_sq))
+            .map(|depth| (depth / unit).min(0.5 * radius));
+        Self { low, radii }
     }
 
     /// How far the edge of the structure is from a point, 0 outside of it.
     pub(super) fn depth(&self, point: [f64; D]) -> f64 {
         let inside = self.inside(point);
-        if !self.radii.shape().contains(inside) {
-            return 0.0;
-        }
-        let parts = corners(self.radii.shape(), inside)
-            .map(|(cell, weight)| weight * self.limited(self.radii.values()[cell]));
-        parts.sum()
+        if self.radii.shape().contains(inside) { self.radii.sample(inside) } else { 0.0 }
     }
 
     /// The radius of the tube in which a curve passes by a point.
@@ -54,13 +50,7 @@ impl<'a, 'm, const D: usize> Surroundings<'a, 'm, D> {
             return 0.0;
         }
         let around = shape.box_around(shape.position(shape.cell_at(inside)), BESIDE);
-        around.map(|cell| self.limited(self.radii.values()[cell])).fold(0.0, f64::max)
-    }
-
-    /// In cell units; circles are wider than tubes.
-    fn limited(&self, radius: f64) -> f64 {
-        let cells = radius / self.radii.shape().smallest_spacing();
-        cells.min(0.5 * self.search.options.radius)
+        around.map(|cell| self.radii.values()[cell]).fold(0.0, f64::max)
     }
 
     fn inside(&self, point: [f64; D]) -> [f64; D] {

@@ -15,7 +15,6 @@ use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
 use crate::simd::{Lanes, WithLanes};
-use std::ops::BitOr;
 use std::sync::Mutex;
 
 /// The scheme and its time step.
@@ -150,20 +149,12 @@ struct Visited {
 }
 
 /// What of the heat in a window was too small for its range.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 struct Lost {
     /// Whether some of it was.
     some: bool,
     /// Whether some of it was nearly too small at the end of the visit.
     nearly: bool,
-}
-
-impl BitOr for Lost {
-    type Output = Self;
-
-    fn bitor(self, other: Self) -> Self {
-        Self { some: self.some | other.some, nearly: self.nearly | other.nearly }
-    }
 }
 
 /// The cells from `low` up to but not including `high`.
@@ -242,6 +233,7 @@ impl<const D: usize> Tiles<D> {
             }
             let next = done + self.tiling.steps;
             if (lost.some || lost.nearly)
+                && done < steps.iterations
                 && self.may_lose_nothing(steps, next)
                 && let Some(tiling) = finer.next()
             {
@@ -273,7 +265,8 @@ impl<const D: usize> Tiles<D> {
             std::mem::swap(&mut visited.next, now);
         }
         self.visited = visited;
-        self.visited.iter().fold(Lost::default(), |lost, visited| lost | visited.lost)
+        let lost = |which: fn(&Lost) -> bool| self.visited.iter().any(|tile| which(&tile.lost));
+        Lost { some: lost(|lost| lost.some), nearly: lost(|lost| lost.nearly) }
     }
 
     /// Whether what is lost in a visit that ends after `done` steps is missing in the end.
