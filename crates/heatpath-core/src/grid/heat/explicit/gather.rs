@@ -36,17 +36,22 @@ pub(super) struct Gather<const D: usize> {
     /// The number of the offset of each term, in order in each bundle.
     terms: Vec<u32>,
     /// As many shares for each term as a bundle has cells.
-    shares: Vec<[f32; BUNDLE]>,
+    shares: Vec<Shares>,
     /// What each cell keeps, row by row in whole bundles.
     kept: Aligned,
 }
+
+/// A share for each cell of a bundle, aligned so that no vector of them straddles two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Shares(pub(super) [f32; BUNDLE]);
 
 /// What the cells of a bundle keep and receive.
 pub(super) struct Bundle<'a> {
     pub(super) kept: &'a [f64; BUNDLE],
     /// The numbers of the offsets.
     pub(super) terms: &'a [u32],
-    pub(super) shares: &'a [[f32; BUNDLE]],
+    pub(super) shares: &'a [Shares],
 }
 
 impl<const D: usize> Gather<D> {
@@ -90,7 +95,7 @@ impl<const D: usize> Gather<D> {
             self.terms.append(list);
             self.starts.push(self.terms.len());
         }
-        self.shares = vec![[0.0; BUNDLE]; self.terms.len()];
+        self.shares = vec![Shares([0.0; BUNDLE]); self.terms.len()];
     }
 
     fn fill_shares(&mut self, operator: &Operator<D>, links: &Links<D>, step: f64) {
@@ -101,7 +106,7 @@ impl<const D: usize> Gather<D> {
                 let share = share.max(f32::MIN_POSITIVE);
                 kept[cell] -= f64::from(share);
                 if let Some((term, place)) = self.term(cell, number) {
-                    self.shares[term][place] = share;
+                    self.shares[term].0[place] = share;
                 }
             }
         });
@@ -152,7 +157,7 @@ impl<const D: usize> Gather<D> {
         let (bundle, place) = self.place(cell);
         let terms = self.starts[bundle]..self.starts[bundle + 1];
         terms
-            .filter(move |&term| self.shares[term][place] > 0.0)
+            .filter(move |&term| self.shares[term].0[place] > 0.0)
             .map(move |term| cell.wrapping_add_signed(shifts[self.terms[term] as usize]))
     }
 

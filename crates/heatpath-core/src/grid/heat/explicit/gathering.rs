@@ -22,7 +22,7 @@ impl<const D: usize> Window<D> {
         steps: usize,
     ) {
         let (last, reach) = (D - 1, gather.reach());
-        let delay = reach[last] + 1;
+        let delay = reach[last];
         for front in 0..extent.size[last] + (steps - 1) * delay {
             for step in 0..steps.min(front / delay + 1) {
                 let plane = front - step * delay;
@@ -54,15 +54,9 @@ impl<const D: usize> Window<D> {
             let mut index = [0; D];
             index[1] = y;
             index[D - 1] = plane;
-            self.gather_row(lanes, gather, extent, index, (bundles.clone(), step));
             let lasts = (1..D).all(|axis| inner(axis, steps).contains(&index[axis]));
-            if lasts && !self.sum.is_empty() {
-                let start = self.row(index);
-                let places = start + bundles.start * BUNDLE..start + bundles.end * BUNDLE;
-                let u = if step % 2 == 0 { &self.other } else { &self.u };
-                let sums = self.sum[places.clone()].iter_mut();
-                sums.zip(&u[places]).for_each(|(sum, u)| *sum += u);
-            }
+            let with_sum = lasts && !self.sum.is_empty();
+            self.gather_row(lanes, gather, extent, index, (bundles.clone(), step, with_sum));
         }
     }
 
@@ -74,7 +68,7 @@ impl<const D: usize> Window<D> {
         gather: &Gather<D>,
         extent: &Extent<D>,
         index: [usize; D],
-        (bundles, step): (Range<usize>, usize),
+        (bundles, step, with_sum): (Range<usize>, usize, bool),
     ) {
         let place = self.row(index) + bundles.start * BUNDLE;
         let row = std::array::from_fn(|axis| extent.low[axis] + index[axis]);
@@ -82,11 +76,13 @@ impl<const D: usize> Window<D> {
             if step % 2 == 0 { (&self.u, &mut self.other) } else { (&self.other, &mut self.u) };
         let after = &mut after[place..][..bundles.len() * BUNDLE];
         let (after, _) = after.as_chunks_mut::<BUNDLE>();
+        let sums = if with_sum { &mut self.sum[place..] } else { &mut [] };
+        let (sums, _) = sums.as_chunks_mut::<BUNDLE>();
         let first = extent.low[0] / BUNDLE + bundles.start;
         let bundles = gather.bundles(row, first, bundles.len());
         for ((number, after), bundle) in after.iter_mut().enumerate().zip(bundles) {
             let here = place + number * BUNDLE;
-            add_up(lanes, &bundle, before, here, &self.shifts, after);
+            add_up(lanes, &bundle, before, here, &self.shifts, (after, sums.get_mut(number)));
         }
     }
 }
@@ -99,7 +95,7 @@ fn add_up<L: Lanes>(
     before: &[f64],
     here: usize,
     shifts: &[isize],
-    after: &mut [f64; BUNDLE],
+    (after, sum): (&mut [f64; BUNDLE], Option<&mut [f64; BUNDLE]>),
 ) {
     let n = size_of::<L::Vector>() / size_of::<f64>();
     // As many vectors as a bundle has at the lowest level.
@@ -112,12 +108,18 @@ fn add_up<L: Lanes>(
         let from = here.wrapping_add_signed(shifts[term as usize]);
         let values = &before[from..from + BUNDLE];
         for (part, sum) in sums.iter_mut().take(BUNDLE / n).enumerate() {
-            let flow = lanes.mul(lanes.widen(shares, part * n), read::<L>(values, part * n));
+            let flow = lanes.mul(lanes.widen(&shares.0, part * n), read::<L>(values, part * n));
             *sum = lanes.add(*sum, flow);
         }
     }
     for part in 0..BUNDLE / n {
         after[part * n..(part + 1) * n].copy_from_slice(cast_slice(&sums[part..=part]));
+    }
+    if let Some(sum) = sum {
+        for part in 0..BUNDLE / n {
+            let added = [lanes.add(read::<L>(sum, part * n), sums[part])];
+            sum[part * n..(part + 1) * n].copy_from_slice(cast_slice(&added));
+        }
     }
 }
 
