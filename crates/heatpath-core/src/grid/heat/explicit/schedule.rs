@@ -51,7 +51,8 @@ impl<const D: usize> Tiling<D> {
     /// Larger tiles are visited less often and rows that are longer along x run faster, but they
     /// must hold a wider range of values, leave less to share between threads, and in 3-D outgrow
     /// the cache. Where heat moves further than a cell in a step, larger tiles have room for its
-    /// margins, which are not wider than a quarter of a tile if one step is not.
+    /// margins, which are not wider than a quarter of a tile if one step is not; and whole rows are
+    /// best, since what takes the time there is reading the stencil from memory.
     pub(super) fn all(
         stencil: &Stencil<D>,
         shape: &Shape<D>,
@@ -62,10 +63,14 @@ impl<const D: usize> Tiling<D> {
         let (edges, most_steps): (&[usize], _) = match stencil {
             _ if D == 3 => (&[32, 16, SHORTEST_EDGE], 4),
             Stencil::Faces(_) if is_large => (&[128, 64, 32, 16, SHORTEST_EDGE], 16),
-            Stencil::Gather(_) if furthest > 1 => (&[128, 64, 32, 16, SHORTEST_EDGE], 8),
+            Stencil::Gather(_) if furthest > 1 => (&[128, 64, 32, 16, SHORTEST_EDGE], 10),
             _ => (&[64, 32, 16, SHORTEST_EDGE], 8),
         };
-        let longest = if D < 3 { None } else { Some((128, edges[0])) };
+        let longest = match stencil {
+            _ if D == 3 => Some((128, edges[0])),
+            Stencil::Gather(_) if furthest > 1 => Some((1024, edges[0])),
+            _ => None,
+        };
         let others = edges.iter().flat_map(|&edge| [(2 * edge, edge), (edge, edge)]);
         longest.into_iter().chain(others).map(move |(length, edge)| {
             let steps = (edge / 8).min(edge / 4 / furthest).clamp(1, most_steps);
