@@ -8,7 +8,7 @@ use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions, NOT_REACHED, Order};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::path::{Descent, Ending, PathOptions};
-use heatpath_core::grid::{Grid, Matrix, Shape, Sources, TensorField};
+use heatpath_core::grid::{Grid, Mask, Matrix, Shape, Sources, TensorField};
 use std::f64::consts::PI;
 use support::{euclidean, march};
 
@@ -259,6 +259,28 @@ fn labels_and_initial_distances() {
         if !seam {
             assert_eq!(nearest.values()[cell], Some(usize::from(each(1) < each(0))), "{centre:?}");
         }
+    }
+}
+
+/// From one source the cells of a picture are solved for two at a time, from several one by one. A source
+/// that is passed over makes the difference.
+#[test]
+fn cells_in_pairs_have_the_distances_of_single_cells() {
+    let shape = Shape::with_spacing([83, 71], [1.0, 1.3]).unwrap();
+    let rough = |index: [usize; 2]| 0.05 + ((index[0] * 7919 + index[1] * 104_729) % 997) as f64;
+    let smooth = |index: [usize; 2]| 0.2 + (0.07 * index[0] as f64).sin().powi(2);
+    let open = |index: [usize; 2]| index[0] % 12 != 5 || index[1] % 60 == 3 * index[0] % 7;
+    let given = |speed_sq: &dyn Fn([usize; 2]) -> f64| {
+        medium::given(Grid::from_fn(shape, speed_sq), Form::Pointwise).unwrap()
+    };
+    let walls = Mask::new(Grid::from_fn(shape, open));
+    for medium in [given(&rough), given(&smooth), given(&smooth).with_walls(walls).unwrap()] {
+        let source = [40.3, 22.0];
+        let alone = march(&medium, &[source], &EikonalOptions::default());
+        let options = EikonalOptions { initial: vec![0.0, 1e6], ..Default::default() };
+        let with_another = march(&medium, &[source, [10.0, 60.0]], &options);
+        assert!(alone.values().iter().any(|distance| *distance < 1e6));
+        assert_eq!(alone, with_another);
     }
 }
 

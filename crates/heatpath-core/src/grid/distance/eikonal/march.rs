@@ -2,6 +2,7 @@
 
 use super::Order;
 use super::factor::{Factor, Upwind};
+use super::pair::{Cell, solve_two};
 use super::queue::{Entry, Queue};
 use super::seed::Seed;
 use super::stencil::Stencil;
@@ -125,6 +126,9 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     #[inline]
     fn spread(&mut self, place: usize, distance: f64) {
         let stencil = self.stencil;
+        if D == 2 && N == D && self.seeds.len() == 1 && self.second_order {
+            return self.spread_in_pairs(place, distance);
+        }
         stencil.for_dependents(place, |cell, index, opposite| {
             let is_nearest = opposite.is_none_or(|opposite| distance < self.distance(opposite));
             if is_nearest && !self.values[cell].is_known() {
@@ -133,6 +137,33 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
                 self.offer(cell, trial.max(distance), nearest);
             }
         });
+    }
+
+    /// The same along the axes of a picture, from one seed: the cells are listed without a jump, and two
+    /// at a time are solved for.
+    #[inline]
+    fn spread_in_pairs(&mut self, place: usize, distance: f64) {
+        // At most four stay; one more may be written behind them.
+        let mut cells = [(0, [0; D]); 8];
+        let mut count = 0;
+        self.stencil.for_dependents(place, |cell, index, opposite| {
+            let is_nearest = opposite.is_none_or(|opposite| distance < self.distance(opposite));
+            cells[count % 8] = (cell, index);
+            count += usize::from(is_nearest & !self.values[cell].is_known());
+        });
+        for at in (0..count).step_by(2) {
+            let two = [cells[at], cells[(at + 1).min(count - 1)]];
+            let cells = two.map(|(place, index)| Cell {
+                place,
+                index,
+                upwinds: std::array::from_fn(|direction| self.upwind(place, direction)),
+            });
+            let found = solve_two(self.stencil, &self.seeds[0], &cells, LARGEST_STEP_SQ);
+            for (cell, found) in cells.iter().zip(found).take(count - at) {
+                let trial = found.unwrap_or_else(|| self.update(cell.place, cell.index).0);
+                self.offer(cell.place, trial.max(distance), 0);
+            }
+        }
     }
 
     #[inline]

@@ -6,6 +6,7 @@ mod factor;
 mod growing;
 mod lattice;
 mod march;
+mod pair;
 mod queue;
 mod seed;
 mod stencil;
