@@ -59,7 +59,7 @@ fn plane(criterion: &mut Criterion) {
 /// Volumes.
 fn space(criterion: &mut Criterion) {
     let mut group = group(criterion, "3-D");
-    for (side, point_steps, noise_steps) in [(128, 128, 120), (256, 160, 15)] {
+    for (side, point_steps, noise_steps) in [(128, 128, 120), (256, 160, 40)] {
         let medium = conductivity(&picture([side; 3]));
         from_point(&mut group, &medium, point_steps);
         from_noise(&mut group, &medium, noise_steps);

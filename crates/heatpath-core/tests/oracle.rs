@@ -146,6 +146,15 @@ fn long_space() {
 }
 
 #[test]
+fn space_in_large_tiles() {
+    for form in [Form::Divergence, Form::Pointwise] {
+        let field = rough(Shape::new([270, 90, 90]).unwrap(), 0.2);
+        let medium = medium::given(field, form).unwrap();
+        assert_agrees(&medium, [134, 46, 47], 11, &Exec::new(2).unwrap());
+    }
+}
+
+#[test]
 fn the_temperature_does_not_depend_on_the_exposure() {
     let medium =
         medium::given(rough(Shape::new([150, 90]).unwrap(), 0.1), Form::Pointwise).unwrap();

@@ -75,7 +75,7 @@ pub struct HeatOptions {
     pub step: Step,
     /// How the diffusion coefficient of a face is made from its two cells, where it is a number.
     pub face_mean: FaceMean,
-    /// Whether to keep the exposure ([`Heat::ln_exposure`]), which paths follow. It takes a tenth of
+    /// Whether to keep the exposure ([`Heat::ln_exposure`]), which paths follow. It takes a quarter of
     /// the time and 8 bytes a cell; distances alone do not need it. The default is true.
     pub exposure: bool,
 }

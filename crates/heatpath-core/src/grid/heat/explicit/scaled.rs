@@ -83,19 +83,39 @@ pub(super) fn nearly_lost(steps: usize) -> f64 {
 }
 
 /// The largest of some values that are not negative.
+pub(super) fn largest(values: &[f64]) -> f64 {
+    let mut largest = Largest::default();
+    largest.take(values);
+    largest.value()
+}
+
+/// The largest of values that come in parts and are not negative.
 ///
 /// Many at a time, because the comparisons of one maximum wait for each other.
-#[inline(always)]
-pub(super) fn largest(values: &[f64]) -> f64 {
-    const LANES: usize = 32;
-    let (chunks, rest) = values.as_chunks::<LANES>();
-    let mut lanes = [0.0; LANES];
-    for chunk in chunks {
-        for lane in 0..LANES {
-            lanes[lane] = if chunk[lane] > lanes[lane] { chunk[lane] } else { lanes[lane] };
+#[derive(Default)]
+pub(super) struct Largest([f64; 16]);
+
+impl Largest {
+    #[inline(always)]
+    pub(super) fn take(&mut self, values: &[f64]) {
+        let (chunks, rest) = values.as_chunks::<16>();
+        let mut lanes = self.0;
+        for chunk in chunks {
+            lanes = std::array::from_fn(|lane| greater(chunk[lane], lanes[lane]));
         }
+        self.0 = lanes;
+        let lanes = self.0.iter_mut().zip(rest);
+        lanes.for_each(|(lane, &value)| *lane = greater(value, *lane));
     }
-    lanes.iter().chain(rest).copied().fold(0.0, f64::max)
+
+    pub(super) fn value(&self) -> f64 {
+        self.0.into_iter().fold(0.0, greater)
+    }
+}
+
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// The exponent for a block whose largest value is `value * 2^exponent`.

@@ -2,15 +2,16 @@
 //!
 //! The grid is cut into tiles. A tile is advanced by several steps at a time in a small scratch
 //! window: the tile is copied in with a margin as wide as heat moves in those steps, of which each
-//! step leaves less that is right, until the tile itself is left. The cells of the margin are
+//! step leaves less that is right, until the tile itself is left. It passes through the window plane
+//! by plane (in 2-D: row by row), so that the window stays in cache. The cells of the margin are
 //! computed by more than one tile; in return a tile is visited once for several steps and stays in
 //! cache, tiles depend on nothing but the state before the visit, so they can run on any thread in
 //! any order with the same result, and each tile keeps an exponent of its own. Heat moves one cell
 //! a step (in tensor media as far as the longest offset), so a tile without heat in it or around it
 //! is passed over.
 
-use super::kernel::{Extent, Window};
-use super::scaled::{RANGE, Scale, Scaled, exponent_for, largest, nearly_lost, trusted};
+use super::kernel::{Extent, Traffic, Window};
+use super::scaled::{Largest, RANGE, Scale, Scaled, exponent_for, largest, nearly_lost, trusted};
 use super::stencil::Stencil;
 use crate::exec::{Cancelled, Exec};
 use crate::grid::{Grid, Shape};
@@ -48,26 +49,30 @@ pub(super) struct Tiling<const D: usize> {
 impl<const D: usize> Tiling<D> {
     /// The ways to cut a grid, in the order in which they are tried.
     ///
-    /// Larger tiles are visited less often and rows that are longer along x run faster, but they
-    /// must hold a wider range of values, leave less to share between threads, and in 3-D outgrow
-    /// the cache. Where heat moves further than a cell in a step, larger tiles have room for its
-    /// margins, which are not wider than a quarter of a tile if one step is not; and whole rows are
-    /// best, since what takes the time there is reading the stencil from memory.
+    /// Larger tiles are visited less often, have less margin and longer rows along x, which run
+    /// faster, but they must hold a wider range of values and leave less to share between threads.
+    /// Where heat moves further than a cell in a step, larger tiles have room for its margins, which
+    /// are not wider than a quarter of a tile if one step is not; whole rows are best there, since
+    /// what takes the time is reading the stencil from memory. In 3-D such tiles outgrow the cache,
+    /// since windows of tensors hold them whole.
     pub(super) fn all(
         stencil: &Stencil<D>,
         shape: &Shape<D>,
     ) -> impl Iterator<Item = Self> + use<D> {
         let (reach, row_multiple) = (stencil.reach(), stencil.row_multiple());
         let furthest = reach.into_iter().max().unwrap_or(1);
-        let is_large = shape.cells() >= ENOUGH_TILES * 256 * 128;
+        // Threads share tiles, so there should be some.
+        let enough = if D == 2 { 8 * 256 * 128 } else { 4 * 128 * 64 * 64 };
+        let is_large = shape.cells() >= enough;
         let (edges, most_steps): (&[usize], _) = match stencil {
+            Stencil::Faces(_) if D == 3 && is_large => (&[64, 32, 16, SHORTEST_EDGE], 8),
             _ if D == 3 => (&[32, 16, SHORTEST_EDGE], 4),
             Stencil::Faces(_) if is_large => (&[128, 64, 32, 16, SHORTEST_EDGE], 16),
             Stencil::Gather(_) if furthest > 1 => (&[128, 64, 32, 16, SHORTEST_EDGE], 10),
             _ => (&[64, 32, 16, SHORTEST_EDGE], 8),
         };
         let longest = match stencil {
-            _ if D == 3 => Some((128, edges[0])),
+            _ if D == 3 => Some((4 * edges[0], edges[0])),
             Stencil::Gather(_) if furthest > 1 => Some((1024, edges[0])),
             _ => None,
         };
@@ -112,9 +117,6 @@ impl<const D: usize> Tiling<D> {
 
 /// The shortest edge of a tile.
 const SHORTEST_EDGE: usize = 8;
-
-/// How many of the largest tiles a picture should have at least: threads share them.
-const ENOUGH_TILES: usize = 8;
 
 /// How many powers of two the largest value of a window may lie above the top of a tile's range.
 const HEADROOM: i32 = 32;
@@ -431,13 +433,52 @@ impl<const D: usize> WithLanes for Visit<'_, D> {
             return;
         };
         let extent = tiles.extent(around);
-        let has_lost = tiles.load(around, extent.low, exponent, steps, window);
-        window.advance(lanes, steps.stencil, &extent, count);
-        tile.lost = tiles.store(inside, extent.low, window, &mut tile.next);
-        tile.lost.some |= has_lost;
         tile.next.heat.exponent = exponent;
+        tile.next.heat.values.resize(tiles.tile_cells(), 0.0);
+        tile.lost = Lost::default();
         if steps.exposure {
-            tiles.add_exposure(inside, extent.low, window, exponent, &mut tile.exposure);
+            tile.exposure.grow(exponent, tiles.tile_cells());
+        }
+        let (low, most) = (extent.low, Largest::default());
+        let mut passage = Passage { tiles, steps, low, inside, around, tile, most };
+        window.advance(lanes, steps.stencil, &extent, count, &mut passage);
+        passage.tile.next.largest = passage.most.value();
+    }
+}
+
+/// The way of a tile and its margin through a window, plane by plane.
+struct Passage<'a, const D: usize> {
+    tiles: &'a Tiles<D>,
+    steps: &'a Steps<'a, D>,
+    /// Where the window begins.
+    low: [usize; D],
+    /// The tile.
+    inside: Range<D>,
+    /// The tile and its margin.
+    around: Range<D>,
+    tile: &'a mut Visited,
+    /// The largest value of the tile after the steps.
+    most: Largest,
+}
+
+impl<const D: usize> Traffic<D> for Passage<'_, D> {
+    #[inline(always)]
+    fn enter(&mut self, window: &mut Window<D>, plane: usize) {
+        let range = self.around.plane(self.low[D - 1] + plane);
+        self.tiles.clear(range, self.low, self.steps, window);
+        let exponent = self.tile.next.heat.exponent;
+        self.tile.lost.some |= self.tiles.load(range, self.low, exponent, window);
+    }
+
+    #[inline(always)]
+    fn leave(&mut self, window: &Window<D>, plane: usize) {
+        let plane = self.low[D - 1] + plane;
+        if (self.inside.low[D - 1]..self.inside.high[D - 1]).contains(&plane) {
+            let range = self.inside.plane(plane);
+            self.tiles.store(range, self.low, window, self.tile, &mut self.most);
+            if self.steps.exposure {
+                self.tiles.add_exposure(range, self.low, window, self.tile);
+            }
         }
     }
 }
@@ -470,17 +511,10 @@ impl<const D: usize> Tiles<D> {
         exponent
     }
 
-    /// Copies a range into the window that begins at `low`, scaled to an exponent; says whether some
-    /// values were too small for it.
+    /// Sets everything in the rows of a range but u in the range itself, in a window that begins at
+    /// `low`.
     #[inline(always)]
-    fn load(
-        &self,
-        range: Range<D>,
-        low: [usize; D],
-        exponent: i32,
-        steps: &Steps<D>,
-        window: &mut Window<D>,
-    ) -> bool {
+    fn clear(&self, range: Range<D>, low: [usize; D], steps: &Steps<D>, window: &mut Window<D>) {
         for row in range.rows() {
             let (start, stride) = (window.row(offset(row, low)), window.row_stride());
             let (to, n) = (start + row[0] - low[0], range.row_length());
@@ -498,6 +532,18 @@ impl<const D: usize> Tiles<D> {
                 rates.for_each(|(rate, k)| *rate = steps.step * k);
             }
         }
+    }
+
+    /// Copies u in a range into the window that begins at `low`, scaled to an exponent; says whether
+    /// some values were too small for it.
+    #[inline(always)]
+    fn load(
+        &self,
+        range: Range<D>,
+        low: [usize; D],
+        exponent: i32,
+        window: &mut Window<D>,
+    ) -> bool {
         let mut has_lost = false;
         for tile in self.tiles_around(range) {
             let heat = &self.now[tile].heat;
@@ -519,42 +565,40 @@ impl<const D: usize> Tiles<D> {
         has_lost
     }
 
-    /// Adds what the window has summed up to the exposure of a tile.
+    /// Adds what the window has summed up in a range to the exposure of a tile.
     #[inline(always)]
     fn add_exposure(
         &self,
-        inside: Range<D>,
+        range: Range<D>,
         low: [usize; D],
         window: &Window<D>,
-        exponent: i32,
-        exposure: &mut Scaled,
+        tile: &mut Visited,
     ) {
-        exposure.grow(exponent, self.tile_cells());
-        let scale = Scale::new(exponent - exposure.exponent);
-        for row in inside.rows() {
+        let scale = Scale::new(tile.next.heat.exponent - tile.exposure.exponent);
+        for row in range.rows() {
             let from = window.row(offset(row, low)) + row[0] - low[0];
-            let sums = &window.sum[from..from + inside.row_length()];
-            let values = exposure.values[self.place(row)..].iter_mut();
+            let sums = &window.sum[from..from + range.row_length()];
+            let values = tile.exposure.values[self.place(row)..].iter_mut();
             values.zip(sums).for_each(|(value, sum)| *value += scale.apply(*sum));
         }
     }
 
-    /// Copies the cells of a tile out of the window; says whether some were too small to be kept.
+    /// Copies a range of a tile out of the window, and notes whether something was too small to be
+    /// kept.
     #[inline(always)]
     fn store(
         &self,
-        inside: Range<D>,
+        range: Range<D>,
         low: [usize; D],
         window: &Window<D>,
-        next: &mut Temperature,
-    ) -> Lost {
-        let mut lost = Lost::default();
+        tile: &mut Visited,
+        most: &mut Largest,
+    ) {
         let nearly_lost = nearly_lost(self.tiling.steps);
-        next.heat.values.resize(self.tile_cells(), 0.0);
-        next.largest = 0.0;
-        for row in inside.rows() {
+        let (next, lost) = (&mut tile.next, &mut tile.lost);
+        for row in range.rows() {
             let from = window.row(offset(row, low)) + row[0] - low[0];
-            let cells = &window.u[from..from + inside.row_length()];
+            let cells = &window.u[from..from + range.row_length()];
             let to = self.place(row);
             let values = &mut next.heat.values[to..to + cells.len()];
             for (value, u) in values.iter_mut().zip(cells) {
@@ -562,9 +606,8 @@ impl<const D: usize> Tiles<D> {
                 lost.some |= *u > *value;
                 lost.nearly |= (*u > 0.0) & (*u < nearly_lost);
             }
-            next.largest = largest(values).max(next.largest);
+            most.take(values);
         }
-        lost
     }
 }
 
@@ -599,6 +642,13 @@ fn logarithms<const D: usize>(
 impl<const D: usize> Range<D> {
     fn row_length(&self) -> usize {
         self.high[0] - self.low[0]
+    }
+
+    /// The cells of one index along the last axis.
+    #[inline(always)]
+    fn plane(mut self, index: usize) -> Self {
+        (self.low[D - 1], self.high[D - 1]) = (index, index + 1);
+        self
     }
 
     /// The first cell of each row along x.

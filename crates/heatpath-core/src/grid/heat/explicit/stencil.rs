@@ -42,48 +42,74 @@ impl<const D: usize> Stencil<D> {
     }
 }
 
-/// The conductances of all faces: row by row, each belonging to the cell before it.
+/// The conductances of all faces.
 ///
 /// Rows can be read beyond their last cell as far as the kernel's vectors go; there is nothing but
 /// faces without conductance there.
 #[derive(Debug)]
 pub(super) struct FaceStencil<const D: usize> {
     shape: Shape<D>,
-    axes: [Faces; D],
+    faces: Faces<D>,
 }
 
-/// The faces across one axis.
 #[derive(Debug)]
-enum Faces {
-    /// All faces inside the grid are equal: one row stands for all, and one for the border.
-    Uniform { inside: Aligned, border: Aligned },
-    /// A number a face.
-    Varying(Aligned),
+enum Faces<const D: usize> {
+    /// All faces across an axis are equal inside the grid. Along x one row stands for all.
+    Uniform { along: Aligned, across: [f64; D] },
+    /// Those across each axis row by row, each belonging to the cell before it.
+    Varying([Aligned; D]),
+}
+
+/// The conductances from the cells of a row to those of the next along axis 1 and along axis 2, if
+/// there is one (else along axis 1 again).
+pub(super) enum Across<'a> {
+    Equal([f64; 2]),
+    Varying([&'a [f64]; 2]),
 }
 
 impl<const D: usize> FaceStencil<D> {
     fn new(operator: &Operator<D>) -> Self {
         let shape = *operator.medium().shape();
-        let faces = |axis| if operator.is_uniform() { uniform } else { varying }(operator, axis);
-        Self { shape, axes: std::array::from_fn(faces) }
+        let faces = if operator.is_uniform() {
+            let across = std::array::from_fn(|axis| operator.uniform_conductance(axis));
+            let mut along = Aligned::zeros(padded(&shape));
+            along[..shape.size()[0] - 1].fill(across[0]);
+            Faces::Uniform { along, across }
+        } else {
+            Faces::Varying(std::array::from_fn(|axis| varying(operator, axis)))
+        };
+        Self { shape, faces }
     }
 
-    /// The conductances across `axis` behind the cells of a row: `n` numbers from `cell` on.
+    /// The conductances from each cell of a row to the next, from `cell` on.
     #[inline(always)]
-    pub(super) fn row(&self, axis: usize, cell: [usize; D], n: usize) -> &[f64] {
-        let numbers = match &self.axes[axis] {
-            Faces::Uniform { border, .. }
-                if axis > 0 && cell[axis] + 1 == self.shape.size()[axis] =>
-            {
-                &border[cell[0]..]
-            }
-            Faces::Uniform { inside, .. } => &inside[cell[0]..],
+    pub(super) fn along(&self, cell: [usize; D]) -> &[f64] {
+        match &self.faces {
+            Faces::Uniform { along, .. } => &along[cell[0]..],
+            Faces::Varying(axes) => &axes[0][self.place(cell)..],
+        }
+    }
+
+    /// The conductances from the cells of a row to those of the next rows, from `cell` on.
+    #[inline(always)]
+    pub(super) fn across(&self, cell: [usize; D]) -> Across<'_> {
+        let axes = [1, D - 1];
+        match &self.faces {
+            Faces::Uniform { across, .. } => Across::Equal(axes.map(|axis| {
+                if cell[axis] + 1 == self.shape.size()[axis] { 0.0 } else { across[axis] }
+            })),
             Faces::Varying(numbers) => {
-                let row = self.shape.position(cell) / self.shape.size()[0];
-                &numbers[row * padded(&self.shape) + cell[0]..]
+                let place = self.place(cell);
+                Across::Varying(axes.map(|axis| &numbers[axis][place..]))
             }
-        };
-        &numbers[..n]
+        }
+    }
+
+    /// Where the numbers of a cell stand.
+    #[inline(always)]
+    fn place(&self, cell: [usize; D]) -> usize {
+        let row = (1..D).rev().fold(0, |row, axis| row * self.shape.size()[axis] + cell[axis]);
+        row * padded(&self.shape) + cell[0]
     }
 }
 
@@ -92,17 +118,7 @@ fn padded<const D: usize>(shape: &Shape<D>) -> usize {
     shape.size()[0].next_multiple_of(ROW_MULTIPLE) + ROW_MULTIPLE
 }
 
-fn uniform<const D: usize>(operator: &Operator<D>, axis: usize) -> Faces {
-    let shape = operator.medium().shape();
-    let width = shape.size()[0];
-    let border = Aligned::zeros(padded(shape));
-    let mut inside = border.clone();
-    let last = if axis == 0 { width - 1 } else { width };
-    inside[..last].fill(operator.uniform_conductance(axis));
-    Faces::Uniform { inside, border }
-}
-
-fn varying<const D: usize>(operator: &Operator<D>, axis: usize) -> Faces {
+fn varying<const D: usize>(operator: &Operator<D>, axis: usize) -> Aligned {
     let shape = operator.medium().shape();
     let row_length = padded(shape);
     let mut faces = Aligned::zeros(shape.cells() / shape.size()[0] * row_length);
@@ -111,5 +127,5 @@ fn varying<const D: usize>(operator: &Operator<D>, axis: usize) -> Faces {
         let conductances = operator.conductances(axis, row);
         numbers.zip(conductances).for_each(|(number, c)| *number = c);
     }
-    Faces::Varying(faces)
+    faces
 }
