@@ -22,9 +22,11 @@ TOLERANCES = (1, 2, 3)
 SETS = {"CHASE_DB1": "retina_chase", "STARE": "retina_stare"}
 
 PICTURE = "--channel green --margin 4 --normalize 15 --threads 2"
-MEDIUM = "--medium vesselness --polarity dark --scale 2,3,4.5 --elongation 3"
+MEDIUM = "--medium vesselness --polarity dark --elongation 3"
+SCALES = "--scale 2,3,4.5"
 METHODS = {
     "votes, accumulated": "vote",
+    "votes, accumulated, scales of the picture": "vote --scale auto",
     "votes, multiple": "vote --method multiple",
     "votes, front": "vote --method front",
     "votes, accumulated, the paper's rules": "vote --no-growth",
@@ -33,6 +35,7 @@ METHODS = {
     "votes, fast marching, random ends": "vote --method random",
     "votes, fast marching, ends at the border": "vote --method border",
     "key points, heat": "keypoints",
+    "key points, heat, scales of the picture": "keypoints --scale auto",
     "key points, length (fast marching)": "keypoints --method length",
 }
 
@@ -48,7 +51,7 @@ def scores(folder, picture, command, scratch):
     """Recall and precision at each tolerance, and the seconds of the extraction."""
     name, output = picture.stem, Path(scratch) / "tree.json"
     view, truth = folder / "fov_png" / f"{name}.png", folder / "centerline" / f"{name}.png"
-    verb, *options = command.split()
+    verb, *options = f"{command} {'' if '--scale' in command else SCALES}".split()
     start = time.perf_counter()
     heatpath([verb, picture, "--mask", view, *PICTURE.split(), *MEDIUM.split(), *options,
               "-o", output, "--force", "--quiet"])

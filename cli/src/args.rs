@@ -422,16 +422,17 @@ pub(crate) struct MediumArgs {
     #[arg(long, value_name = "A", allow_negative_numbers = true, help_heading = "Medium")]
     pub(crate) anisotropy: Option<f64>,
     /// Half widths of the tubes that Hessian and vesselness look for: standard deviations of the
-    /// Gaussian before derivatives, in pixels, several for the vesselness [default: 2; vesselness:
-    /// 2,3,4.5].
+    /// Gaussian before derivatives, in pixels, several for the vesselness, or `auto`: those that most
+    /// of the picture's tubes have, which `heatpath medium` prints [default: 2; vesselness: 2,3,4.5].
     #[arg(
         long,
         value_name = "SIGMA",
+        value_parser = auto,
         value_delimiter = ',',
         allow_negative_numbers = true,
         help_heading = "Medium"
     )]
-    pub(crate) scale: Vec<f64>,
+    pub(crate) scale: Vec<AutoArg>,
     /// How much longer than wide the Gaussian of the vesselness is, in many directions of which the
     /// best counts, 1 to 10: above 1 there is less noise between tubes [default: 1].
     #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "Medium")]
@@ -480,11 +481,11 @@ pub(crate) struct HeatArgs {
     #[arg(
         long,
         value_name = "TAU",
-        value_parser = step,
+        value_parser = auto,
         allow_negative_numbers = true,
         help_heading = "Heat"
     )]
-    pub(crate) step: Option<StepArg>,
+    pub(crate) step: Option<AutoArg>,
     /// The most memory that implicit heat and the heat method may take, in GiB [default: 4].
     #[arg(long, value_name = "GIB", allow_negative_numbers = true, help_heading = "Heat")]
     pub(crate) memory: Option<f64>,
@@ -625,15 +626,24 @@ pub(crate) enum EstimatorArg {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum StepArg {
+pub(crate) enum AutoArg {
     Auto,
     Fixed(f64),
 }
 
-fn step(text: &str) -> Result<StepArg, String> {
+impl AutoArg {
+    pub(crate) fn number(&self) -> Option<f64> {
+        match *self {
+            Self::Auto => None,
+            Self::Fixed(number) => Some(number),
+        }
+    }
+}
+
+fn auto(text: &str) -> Result<AutoArg, String> {
     match text {
-        "auto" => Ok(StepArg::Auto),
-        _ => text.parse().map(StepArg::Fixed).map_err(|_| "expected a number or `auto`".to_owned()),
+        "auto" => Ok(AutoArg::Auto),
+        _ => text.parse().map(AutoArg::Fixed).map_err(|_| "expected a number or `auto`".to_owned()),
     }
 }
 

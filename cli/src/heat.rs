@@ -1,6 +1,6 @@
 //! Heat, as the options ask for it.
 
-use crate::args::{FaceMeanArg, HeatArgs, SolverArg, StepArg};
+use crate::args::{AutoArg, FaceMeanArg, HeatArgs, SolverArg};
 use crate::failure::Failure;
 use heatpath_core::Exec;
 use heatpath_core::grid::Sources;
@@ -104,8 +104,8 @@ fn explicit(args: &HeatArgs) -> Result<HeatOptions, Failure> {
     };
     let step = match args.step {
         None => Step::Usual,
-        Some(StepArg::Auto) => Step::Auto,
-        Some(StepArg::Fixed(step)) => Step::Fixed(step),
+        Some(AutoArg::Auto) => Step::Auto,
+        Some(AutoArg::Fixed(step)) => Step::Fixed(step),
     };
     Ok(HeatOptions { duration, step, face_mean: face_mean(args), ..HeatOptions::default() })
 }

@@ -1,7 +1,7 @@
 //! From the command line to the nouns of the engine.
 
 use crate::args::{
-    ChannelArg, DirectionsArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, Numbers,
+    AutoArg, ChannelArg, DirectionsArg, EdgeStopArg, FormArg, MediumArg, MediumArgs, Numbers,
     OptionalSourceArgs, PictureArgs, PolarityArg,
 };
 use crate::failure::Failure;
@@ -12,7 +12,7 @@ use heatpath_core::grid::medium::{
     self, ConductivityOptions, Directions, EdgeStop, EdgesOptions, Form, Medium, MediumError,
     PeronaMalikOptions, TensorOptions, VesselnessOptions,
 };
-use heatpath_core::grid::{Grid, Mask, Shape, check_points};
+use heatpath_core::grid::{Grid, Mask, Shape, Structure, check_points, tube_scales};
 use heatpath_io::{Channel, ImageFile, PictureOptions, Placement, read_points};
 use std::path::Path;
 
@@ -183,7 +183,8 @@ impl<'a, const D: usize> Picture<'a, D> {
                 medium::tensor(image, self.tensor_options(args)?, &Exec::new(threads)?)?
             }
             MediumArg::Vesselness => {
-                medium::vesselness(image, &self.vesselness_options(args), &Exec::new(threads)?)?
+                let options = self.vesselness_options(&self.with_scales(args, threads)?)?;
+                medium::vesselness(image, &options, &Exec::new(threads)?)?
             }
             MediumArg::File => self.given_medium(args)?,
         };
@@ -194,7 +195,7 @@ impl<'a, const D: usize> Picture<'a, D> {
         let usual = TensorOptions::default();
         let sigma = match args.scale.as_slice() {
             [] => 2.0,
-            [sigma] => self.smoothing(*sigma),
+            [AutoArg::Fixed(sigma)] => self.smoothing(*sigma),
             _ => return Err(Failure::usage("--scale: `--medium tensor` takes one number")),
         };
         let directions = match args.tensor {
@@ -208,10 +209,14 @@ impl<'a, const D: usize> Picture<'a, D> {
         Ok(TensorOptions { directions, anisotropy, ..usual })
     }
 
-    fn vesselness_options(&self, args: &MediumArgs) -> VesselnessOptions {
+    fn vesselness_options(&self, args: &MediumArgs) -> Result<VesselnessOptions, Failure> {
         let usual = VesselnessOptions::default();
-        let scales: Vec<f64> = args.scale.iter().map(|&sigma| self.smoothing(sigma)).collect();
-        VesselnessOptions {
+        let sigma = |scale: &AutoArg| match scale {
+            AutoArg::Fixed(sigma) => Ok(self.smoothing(*sigma)),
+            AutoArg::Auto => Err(Failure::usage("--scale: `auto` stands alone")),
+        };
+        let scales: Vec<f64> = args.scale.iter().map(sigma).collect::<Result<_, _>>()?;
+        Ok(VesselnessOptions {
             power: args.power.unwrap_or(usual.power),
             floor: args.floor.unwrap_or(usual.floor),
             anisotropy: args.anisotropy.unwrap_or(usual.anisotropy),
@@ -223,7 +228,30 @@ impl<'a, const D: usize> Picture<'a, D> {
                 ..usual.tubes
             },
             ..usual
-        }
+        })
+    }
+
+    /// The options of a vesselness with numbers in place of `--scale auto`.
+    pub(crate) fn with_scales(
+        &self,
+        args: &MediumArgs,
+        threads: usize,
+    ) -> Result<MediumArgs, Failure> {
+        let [AutoArg::Auto] = args.scale[..] else { return Ok(args.clone()) };
+        let usual = Tubes::default();
+        let tubes = Tubes { polarity: polarity(args).unwrap_or(usual.polarity), ..usual };
+        let (exec, extent) = (Exec::new(threads)?, Structure::usual_extent(self.image.shape()));
+        let scales = tube_scales(&self.image, &tubes, &self.mask, extent, &exec);
+        let Some(scales) = scales.map_err(MediumError::from)? else {
+            let message =
+                format!("no tube is {extent:.1} pixels long: say which --scale they have");
+            return Err(Failure::no_answer(message));
+        };
+        let unit = self.smoothing(1.0).recip();
+        Ok(MediumArgs {
+            scale: scales.iter().map(|scale| AutoArg::Fixed(scale * unit)).collect(),
+            ..args.clone()
+        })
     }
 
     fn given_medium(&self, args: &MediumArgs) -> Result<Medium<D>, Failure> {

@@ -1,6 +1,6 @@
 //! `heatpath medium`
 
-use crate::args::MediumCommandArgs;
+use crate::args::{AutoArg, MediumArg, MediumCommandArgs};
 use crate::failure::Failure;
 use crate::input::{Input, Picture, size_text};
 use crate::output;
@@ -14,6 +14,9 @@ struct Report {
     min: f64,
     max: f64,
     mean: f64,
+    /// What `--scale auto` chose.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scales: Option<Vec<f64>>,
 }
 
 pub(crate) fn medium(args: &MediumCommandArgs) -> Result<(), Failure> {
@@ -28,7 +31,12 @@ fn medium_in<const D: usize>(args: &MediumCommandArgs, file: ImageFile) -> Resul
     output::check_dimension(args.output.as_deref(), &args.out, D)?;
     let picture = Picture::<D>::new(&args.picture, file)?;
     let sources = picture.optional_sources(&args.sources)?;
-    let field = picture.medium(&args.medium, &sources, 0)?.speed_sq_field();
+    let (mut medium, mut scales) = (args.medium.clone(), None);
+    if let (MediumArg::Vesselness, [AutoArg::Auto]) = (medium.medium, &medium.scale[..]) {
+        medium = picture.with_scales(&medium, 0)?;
+        scales = Some(medium.scale.iter().filter_map(AutoArg::number).collect());
+    }
+    let field = picture.medium(&medium, &sources, 0)?.speed_sq_field();
     if let Some(output) = &args.output {
         let style = FieldStyle { title: Some("k D".to_owned()), placement: picture.placement };
         write_field(output, args.out.format.as_deref(), args.out.force, &field, &style)?;
@@ -43,11 +51,16 @@ fn medium_in<const D: usize>(args: &MediumCommandArgs, file: ImageFile) -> Resul
         min: values.iter().copied().fold(f64::INFINITY, f64::min),
         max: values.iter().copied().fold(0.0, f64::max),
         mean: values.iter().sum::<f64>() / values.len() as f64,
+        scales,
     };
     if args.out.json {
         output::print_json(&report)?;
     }
-    let Report { size, min, max, mean } = report;
+    let Report { size, min, max, mean, scales } = report;
+    if let Some(scales) = scales {
+        let scales: Vec<String> = scales.iter().map(|scale| format!("{scale:.2}")).collect();
+        output::tell(&args.out, &format!("--scale {}", scales.join(",")));
+    }
     let size = size_text(size);
     output::tell(
         &args.out,

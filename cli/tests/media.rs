@@ -28,6 +28,7 @@ fn tubes_are_found_and_followed() {
     for medium in [
         "vesselness",
         "vesselness --anisotropy 0.9 --scale 1.5,2.5",
+        "vesselness --scale auto",
         "vesselness --polarity both --power 3 --floor 1e-5",
     ] {
         assert!(paths(medium) > 1.3 * straight, "{medium} cuts short");
@@ -88,6 +89,26 @@ fn long_tubes_leave_less_noise() {
 }
 
 #[test]
+fn scales_are_chosen_from_the_picture() {
+    let bench = Bench::new();
+    line(&bench);
+    let medium = |options: &str| {
+        bench.json(&format!("medium line.npy --medium vesselness {options} --json"))
+    };
+    let chosen = medium("--scale auto");
+    let scales = chosen["scales"].as_array().unwrap();
+    assert_eq!(scales.len(), 3);
+    assert!(scales.iter().all(|scale| (1.0..4.0).contains(&scale.as_f64().unwrap())), "{chosen}");
+    let text: Vec<String> = scales.iter().map(ToString::to_string).collect();
+    let given = medium(&format!("--scale {}", text.join(",")));
+    assert_eq!(given["mean"], chosen["mean"]);
+    assert!(given["scales"].is_null());
+    let physical = medium("--scale auto --physical --spacing 0.5,0.5");
+    let ratio = physical["scales"][1].as_f64().unwrap() / scales[1].as_f64().unwrap();
+    assert!((ratio - 0.5).abs() < 1e-12, "{physical}");
+}
+
+#[test]
 fn heat_runs_along_directions() {
     let bench = Bench::new();
     line(&bench);
@@ -135,6 +156,11 @@ fn what_does_not_go_together_is_refused() {
     bench.fails(&format!("{medium} tensor --anisotropy 1"), 2, &["anisotropy", "0.9998"]);
     bench.fails(&format!("{medium} tensor --scale 1,2"), 2, &["--scale", "one number"]);
     bench.fails(&format!("{medium} vesselness --scale -1"), 2, &["-1"]);
+    bench.fails(&format!("{medium} vesselness --scale auto,2"), 2, &["auto", "alone"]);
+    bench.fails(&format!("{medium} tensor --scale auto"), 2, &["--scale", "one number"]);
+    bench.write_npy("flat.npy", &[80, 100], |_| 0.5);
+    let flat = "medium flat.npy --json --medium vesselness --scale auto";
+    bench.fails(flat, 5, &["no tube", "--scale"]);
     bench.fails(&format!("{medium} vesselness --elongation 0.5"), 2, &["elongation", "1 to 10"]);
     bench.fails(&format!("{medium} uniform --normalize 0"), 2, &["sigma", "positive"]);
 }

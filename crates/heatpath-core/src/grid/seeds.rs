@@ -28,62 +28,59 @@ pub fn seeds<const D: usize>(
     least_speed_sq: f64,
     least_extent: f64,
 ) -> Vec<[f64; D]> {
-    let shape = *medium.shape();
+    let rank = |cell: usize| (medium.speed_sq(cell), std::cmp::Reverse(cell));
+    let fastest = |piece: &Vec<usize>| {
+        piece.iter().copied().reduce(|best, cell| if rank(cell) > rank(best) { cell } else { best })
+    };
+    let pieces = long_pieces(medium, least_speed_sq, least_extent);
+    pieces.iter().filter_map(fastest).map(|cell| medium.shape().centre(cell)).collect()
+}
+
+/// The cells of each piece of the structure whose extent is at least `least_extent`, the longest
+/// piece first.
+pub(super) fn long_pieces<const D: usize>(
+    medium: &Medium<D>,
+    least_speed_sq: f64,
+    least_extent: f64,
+) -> Vec<Vec<usize>> {
+    let shape = medium.shape();
     let mut waiting = structure(medium, least_speed_sq);
     let mut pieces = Vec::new();
     for first in 0..shape.cells() {
         if waiting.values()[first] {
-            let piece = Piece::around(first, medium, &mut waiting);
-            let extent = piece.extent(&shape);
+            let piece = piece_around(first, &mut waiting);
+            let extent = extent(&piece, shape);
             if extent >= least_extent {
-                pieces.push((extent, piece.fastest));
+                pieces.push((extent, piece));
             }
         }
     }
     pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
-    pieces.into_iter().map(|(_, fastest)| shape.centre(fastest)).collect()
+    pieces.into_iter().map(|(_, piece)| piece).collect()
 }
 
-/// Cells that touch.
-struct Piece<const D: usize> {
-    fastest: usize,
-    low: [usize; D],
-    high: [usize; D],
+/// The piece of `waiting` cells around one of them, which are then waiting no more.
+fn piece_around<const D: usize>(first: usize, waiting: &mut Grid<bool, D>) -> Vec<usize> {
+    let shape = *waiting.shape();
+    waiting.values_mut()[first] = false;
+    let (mut piece, mut next) = (vec![first], 0);
+    while let Some(&cell) = piece.get(next) {
+        next += 1;
+        let around = shape.box_around(cell, 1);
+        piece.extend(around.filter(|&near| std::mem::take(&mut waiting.values_mut()[near])));
+    }
+    piece
 }
 
-impl<const D: usize> Piece<D> {
-    /// The piece of `waiting` cells around one of them, which are then waiting no more.
-    fn around(first: usize, medium: &Medium<D>, waiting: &mut Grid<bool, D>) -> Self {
-        let shape = medium.shape();
-        let mut piece = Self { fastest: first, low: shape.index(first), high: shape.index(first) };
-        waiting.values_mut()[first] = false;
-        let mut stack = vec![first];
-        while let Some(cell) = stack.pop() {
-            piece.add(cell, medium);
-            for next in shape.box_around(cell, 1) {
-                if std::mem::take(&mut waiting.values_mut()[next]) {
-                    stack.push(next);
-                }
-            }
-        }
-        piece
+/// The diagonal of the box around a piece, in cell units.
+fn extent<const D: usize>(piece: &[usize], shape: &Shape<D>) -> f64 {
+    let (mut low, mut high) = ([usize::MAX; D], [0; D]);
+    for index in piece.iter().map(|&cell| shape.index(cell)) {
+        low = std::array::from_fn(|axis| low[axis].min(index[axis]));
+        high = std::array::from_fn(|axis| high[axis].max(index[axis]));
     }
-
-    fn add(&mut self, cell: usize, medium: &Medium<D>) {
-        let rank = |cell: usize| (medium.speed_sq(cell), std::cmp::Reverse(cell));
-        if rank(cell) > rank(self.fastest) {
-            self.fastest = cell;
-        }
-        let index = medium.shape().index(cell);
-        self.low = std::array::from_fn(|axis| self.low[axis].min(index[axis]));
-        self.high = std::array::from_fn(|axis| self.high[axis].max(index[axis]));
-    }
-
-    /// The diagonal of the box around it, in cell units.
-    fn extent(&self, shape: &Shape<D>) -> f64 {
-        let corner = |index: [usize; D]| index.map(|i| i as f64);
-        shape.physical_distance(corner(self.low), corner(self.high)) / shape.smallest_spacing()
-    }
+    let corner = |index: [usize; D]| index.map(|i| i as f64);
+    shape.physical_distance(corner(low), corner(high)) / shape.smallest_spacing()
 }
 
 #[cfg(test)]
