@@ -230,7 +230,7 @@ fn directions<const D: usize>() -> Vec<[f64; D]> {
 
 /// `result[i]` = sum over `taps` of `weight values[place + i]`.
 #[inline(always)]
-fn weighted_sum(taps: &[(f64, usize)], values: &[f64], result: &mut [f64]) {
+pub(super) fn weighted_sum(taps: &[(f64, usize)], values: &[f64], result: &mut [f64]) {
     let (blocks, rest) = result.as_chunks_mut::<BLOCK>();
     let first_of_rest = blocks.len() * BLOCK;
     for (block, result) in blocks.iter_mut().enumerate() {

@@ -10,6 +10,7 @@ mod flux;
 mod hessian;
 mod kernel;
 mod measure;
+mod medialness;
 mod separable;
 mod structure;
 mod vesselness;
@@ -17,6 +18,7 @@ mod vesselness;
 pub use contrast::{DEVIATION, even_grey, normalize_contrast};
 pub use hessian::hessian;
 pub use measure::{Measure, Polarity};
+pub use medialness::medialness;
 pub use structure::{gaussian_gradient, structure_tensor};
 pub use vesselness::{LARGEST_ELONGATION, LARGEST_SCALE, Tubes, Vesselness, vesselness};
 
