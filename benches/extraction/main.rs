@@ -16,6 +16,7 @@ use data::{DataSet, Picture, SETS};
 use heatpath_core::Exec;
 use heatpath_core::evaluation::{CurveSet, evaluate};
 use heatpath_core::grid::heat::HeatError;
+use heatpath_core::grid::medium::Medium;
 use methods::Kind;
 use pairs::{Ways, ways};
 use readouts::{Readout, Traced, Window};
@@ -87,16 +88,17 @@ fn of_picture(
     exec: &Exec,
 ) -> Result<Part, Failure> {
     let ways = ways(&picture.centrelines, length, sources, STRAIGHTNESS);
+    let vessels = methods::ISOTROPIC.medium(picture, &[], exec)?;
     let mut tallies = Vec::new();
     for rows in rows.chunk_by(|a, b| a.0 == b.0) {
-        tallies.extend(of_medium(picture, &ways, length, rows, exec)?);
+        tallies.extend(of_medium((picture, &vessels), &ways, length, rows, exec)?);
     }
     Ok((picture.chosen_by, tallies))
 }
 
-/// What is found by `rows` of the same medium.
+/// What is found by `rows` of the same medium; isotropic vesselness comes with the picture.
 fn of_medium(
-    picture: &Picture,
+    (picture, vessels): (&Picture, &Medium<2>),
     ways: &[Ways],
     length: f64,
     rows: &[(Kind, Readout)],
@@ -109,7 +111,7 @@ fn of_medium(
         let reference = picture.grey.sample(ways[0].source);
         let medium = kind.medium(picture, &[reference], exec)?;
         for ways in ways {
-            let window = Window::new(&medium, ways, length);
+            let window = Window::new(&medium, vessels, ways, length);
             for (&(_, readout), tally) in rows.iter().zip(&mut tallies) {
                 tally.add_ways(&window, ways, readout, exec)?;
             }

@@ -4,13 +4,13 @@ use crate::Failure;
 use crate::data::Picture;
 use crate::readouts::Readout;
 use heatpath_core::Exec;
-use heatpath_core::grid::TensorField;
-use heatpath_core::grid::filter::{Polarity, Tubes};
+use heatpath_core::grid::filter::{Polarity, Tubes, medialness};
 use heatpath_core::grid::medium::{
-    ConductivityOptions, Directions, EdgesOptions, Medium, PeronaMalikOptions, TensorOptions,
-    VesselnessOptions, combined, conductivity, edges, given_tensor, perona_malik, tensor, uniform,
-    vesselness,
+    ConductivityOptions, Directions, EdgesOptions, Form, Medium, PeronaMalikOptions, TensorOptions,
+    VesselnessOptions, combined, conductivity, edges, given, given_tensor, perona_malik, tensor,
+    uniform, vesselness,
 };
+use heatpath_core::grid::{Grid, TensorField};
 
 /// A medium of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,15 @@ pub(crate) enum Kind {
         anisotropy: f64,
         anisotropy_power: f64,
     },
+    /// Isotropic vesselness of power 1 times medialness: each is the square of a speed.
+    Middle,
 }
+
+/// The radii of medialness.
+const RADII: [f64; 5] = [1.5, 2.5, 3.5, 5.0, 7.0];
+
+/// The squared speed where there is no vessel.
+const FLOOR: f64 = 1e-4;
 
 /// Isotropic vesselness: with [`Readout::Eikonal`] it is the baseline.
 pub(crate) const ISOTROPIC: Kind = vessels(2.0, 0.0, 1.0);
@@ -41,7 +49,9 @@ const fn vessels(power: f64, anisotropy: f64, anisotropy_power: f64) -> Kind {
 
 /// All rows of the table.
 pub(crate) fn all() -> Vec<(Kind, Readout)> {
-    use Readout::{Bridge, Eikonal, Explicit, ExplicitDistance, HeatMethod, Implicit};
+    use Readout::{
+        Bridge, BridgeOfVessels, Eikonal, Explicit, ExplicitDistance, HeatMethod, Implicit,
+    };
     let of_paper = [
         Kind::Uniform,
         Kind::Conductivity,
@@ -57,6 +67,7 @@ pub(crate) fn all() -> Vec<(Kind, Readout)> {
             rows.push((kind, HeatMethod));
         }
     }
+    rows.extend([Eikonal, BridgeOfVessels].map(|readout| (Kind::Middle, readout)));
     rows.extend([1.0, 3.0, 4.0].map(|power| (vessels(power, 0.0, 1.0), Eikonal)));
     rows
 }
@@ -70,6 +81,7 @@ impl Kind {
             Self::Combined => "combined (10)".into(),
             Self::Edges => "edges (11)".into(),
             Self::Tensor => "tensor (12)-(14)".into(),
+            Self::Middle => "vesselness and medialness".into(),
             Self::Vesselness { power, anisotropy: 0.0, .. } => format!("vesselness, power {power}"),
             Self::Vesselness { power, anisotropy, anisotropy_power } => {
                 format!("vesselness, power {power}, A = {anisotropy} v^{anisotropy_power}")
@@ -118,6 +130,15 @@ impl Kind {
                 let options =
                     VesselnessOptions { tubes, power, anisotropy, anisotropy_power, ..usual };
                 conserving(vesselness(&picture.contrast, &options, exec)?)?
+            }
+            Self::Middle => {
+                let vessels = ISOTROPIC.medium(picture, references, exec)?;
+                let medialness = medialness(&picture.contrast, &RADII, exec)?;
+                let speed_sq = Grid::from_fn(*grey.shape(), |index| {
+                    let vessel = vessels.speed_sq(grey.shape().position(index)) - FLOOR;
+                    vessel.max(0.0).sqrt() * medialness[index] + FLOOR
+                });
+                given(speed_sq, Form::Pointwise)?
             }
         })
     }

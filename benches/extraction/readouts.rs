@@ -27,6 +27,9 @@ pub(crate) enum Readout {
     /// Fast marching in the medium along the bridge of heats from both ends, each one implicit step
     /// of [`BRIDGE_TIME`].
     Bridge,
+    /// The same, but heat flows in isotropic vesselness, and the power of the medium is
+    /// [`MIDDLE_POWER`].
+    BridgeOfVessels,
     HeatMethod,
 }
 
@@ -42,6 +45,9 @@ const BRIDGE_TIME: f64 = 4000.0;
 /// The powers of the medium and of the density in [`along_bridge`].
 const BRIDGE_POWERS: [f64; 2] = [2.0, 0.7];
 
+/// The power of the medium where heat flows in another.
+const MIDDLE_POWER: f64 = 2.5;
+
 /// The least squared speed in [`along_bridge`].
 const BRIDGE_FLOOR: f64 = 1e-6;
 
@@ -56,6 +62,7 @@ impl Readout {
             Self::ExplicitDistance => "explicit, distance",
             Self::Implicit => "implicit",
             Self::Bridge => "bridge",
+            Self::BridgeOfVessels => "bridge of vesselness",
             Self::HeatMethod => "heat method",
         }
     }
@@ -75,7 +82,7 @@ impl Readout {
             let options = HeatOptions { duration, step: Step::Auto, ..HeatOptions::default() };
             Ok(Explicit::new(medium, options)?.flow(&source, exec)?)
         };
-        let implicit = |time: f64| {
+        let implicit = |medium, time: f64| {
             Implicit::new(medium, ImplicitOptions { time, ..ImplicitOptions::default() }, exec)
         };
         let mut traced = Traced::default();
@@ -90,14 +97,18 @@ impl Readout {
                 traced.add(&Descent::of_distances(&map, &source, medium), &map, &ends, window)?;
             }
             Self::Implicit => {
-                traced.by_heat(&implicit(TIME)?.flow(&source, exec)?, &ends, window)?;
+                traced.by_heat(&implicit(medium, TIME)?.flow(&source, exec)?, &ends, window)?;
             }
-            Self::Bridge => {
-                let implicit = implicit(BRIDGE_TIME)?;
+            Self::Bridge | Self::BridgeOfVessels => {
+                let (heated, powers) = match self {
+                    Self::Bridge => (medium, BRIDGE_POWERS),
+                    _ => (&window.vessels, [MIDDLE_POWER, BRIDGE_POWERS[1]]),
+                };
+                let implicit = implicit(heated, BRIDGE_TIME)?;
                 let from = implicit.flow(&source, exec)?;
                 for end in ends {
                     let to = implicit.flow(&Sources::new(&[end], medium.mask())?, exec)?;
-                    let medium = along_bridge(medium, &from, &to)?;
+                    let medium = along_bridge(medium, powers, [&from, &to])?;
                     let map = fast_marching(&medium, &source, &[end], exec)?;
                     let descent = Descent::of_distances(&map, &source, &medium);
                     traced.add(&descent, &map, &[end], window)?;
@@ -113,12 +124,17 @@ impl Readout {
     }
 }
 
-/// The medium `k^2 b^0.7`, where b is the density of heat between two points, over its largest value.
-fn along_bridge(medium: &Medium<2>, from: &Heat<2>, to: &Heat<2>) -> Result<Medium<2>, Failure> {
+/// The medium `k^2 b^0.7`, or with other `powers`, where b is the density of heat between two points, over its
+/// largest value.
+fn along_bridge(
+    medium: &Medium<2>,
+    powers: [f64; 2],
+    [from, to]: [&Heat<2>; 2],
+) -> Result<Medium<2>, Failure> {
     let ln_density = bridge(from, to)?;
     let ln_speed_sq = Grid::from_fn(*medium.shape(), |index| {
         let speed_sq = medium.speed_sq(medium.shape().position(index));
-        BRIDGE_POWERS[0] * speed_sq.ln() + BRIDGE_POWERS[1] * ln_density[index]
+        powers[0] * speed_sq.ln() + powers[1] * ln_density[index]
     });
     let largest = ln_speed_sq.values().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let speed_sq = ln_speed_sq.map(|ln_speed_sq| (ln_speed_sq - largest).exp().max(BRIDGE_FLOOR));
@@ -138,16 +154,19 @@ fn fast_marching(
 /// A part of a medium around a source that holds its ways.
 pub(crate) struct Window {
     medium: Medium<2>,
+    /// Isotropic vesselness.
+    vessels: Medium<2>,
     low: [f64; 2],
 }
 
 impl Window {
     /// Ways of `length` leave the source by no more than that.
-    pub(crate) fn new(medium: &Medium<2>, ways: &Ways, length: f64) -> Self {
+    pub(crate) fn new(medium: &Medium<2>, vessels: &Medium<2>, ways: &Ways, length: f64) -> Self {
         let reach = length + MARGIN;
         let low = ways.source.map(|x| (x - reach).max(0.0).floor());
         let size = [0, 1].map(|axis| (ways.source[axis] + reach - low[axis]) as usize + 1);
-        Self { medium: medium.cropped(low.map(|x| x as usize), size), low }
+        let [medium, vessels] = [medium, vessels].map(|m| m.cropped(low.map(|x| x as usize), size));
+        Self { medium, vessels, low }
     }
 
     fn inside(&self, point: [f64; 2]) -> [f64; 2] {
