@@ -145,7 +145,8 @@ fn no_gap_remains_on_generated_trees() {
     }
 }
 
-/// Trees of which branches cross, or end, in others: vesselness has holes there of more than two cells.
+/// Trees of which branches cross, or end in others, where vesselness has holes; what is beyond one is too
+/// short to be told from noise.
 const BROKEN: [u64; 3] = [1, 11, 12];
 
 /// A fifth of the temperature is lost over a seventh of a cell.
