@@ -34,9 +34,6 @@ pub(crate) enum Kind {
 /// The radii of medialness.
 const RADII: [f64; 5] = [1.5, 2.5, 3.5, 5.0, 7.0];
 
-/// The squared speed where there is no vessel.
-const FLOOR: f64 = 1e-4;
-
 /// Isotropic vesselness: with [`Readout::Eikonal`] it is the baseline.
 pub(crate) const ISOTROPIC: Kind = vessels(2.0, 0.0, 1.0);
 
@@ -132,11 +129,12 @@ impl Kind {
                 conserving(vesselness(&picture.contrast, &options, exec)?)?
             }
             Self::Middle => {
-                let vessels = ISOTROPIC.medium(picture, references, exec)?;
+                let vessels = vessels(1.0, 0.0, 1.0).medium(picture, references, exec)?;
+                let floor = VesselnessOptions::default().floor;
                 let medialness = medialness(&picture.contrast, &RADII, exec)?;
                 let speed_sq = Grid::from_fn(*grey.shape(), |index| {
-                    let vessel = vessels.speed_sq(grey.shape().position(index)) - FLOOR;
-                    vessel.max(0.0).sqrt() * medialness[index] + FLOOR
+                    let vessel = vessels.speed_sq(grey.shape().position(index)) - floor;
+                    vessel.max(0.0) * medialness[index] + floor
                 });
                 given(speed_sq, Form::Pointwise)?
             }

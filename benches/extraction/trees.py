@@ -26,7 +26,7 @@ MEDIUM = "--medium vesselness --polarity dark --elongation 3"
 SCALES = "--scale 2,3,4.5"
 METHODS = {
     "votes, accumulated": "vote",
-    "votes, accumulated, scales of the picture": "vote --scale auto",
+    "votes, accumulated, `--scale auto`": "vote --scale auto",
     "votes, multiple": "vote --method multiple",
     "votes, front": "vote --method front",
     "votes, accumulated, the paper's rules": "vote --no-growth",
@@ -35,7 +35,6 @@ METHODS = {
     "votes, fast marching, random ends": "vote --method random",
     "votes, fast marching, ends at the border": "vote --method border",
     "key points, heat": "keypoints",
-    "key points, heat, scales of the picture": "keypoints --scale auto",
     "key points, length (fast marching)": "keypoints --method length",
 }
 

@@ -241,8 +241,8 @@ impl<'a, const D: usize> Picture<'a, D> {
         let usual = Tubes::default();
         let tubes = Tubes { polarity: polarity(args).unwrap_or(usual.polarity), ..usual };
         let (exec, extent) = (Exec::new(threads)?, Structure::usual_extent(self.image.shape()));
-        let scales = tube_scales(&self.image, &tubes, &self.mask, extent, &exec);
-        let Some(scales) = scales.map_err(MediumError::from)? else {
+        let scales = tube_scales(&self.image, &tubes, &self.mask, extent, &exec)?;
+        let Some(scales) = scales else {
             let message =
                 format!("no tube is {extent:.1} pixels long: say which --scale they have");
             return Err(Failure::no_answer(message));

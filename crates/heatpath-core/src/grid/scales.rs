@@ -1,7 +1,7 @@
 //! How wide the tubes of an image are.
 
-use super::filter::{FilterError, LARGEST_SCALE, Tubes, vesselness};
-use super::medium::{Form, given};
+use super::filter::{LARGEST_SCALE, Tubes, vesselness};
+use super::medium::{Form, MediumError, given};
 use super::seeds::long_pieces;
 use super::skeleton::thin;
 use super::{Grid, Mask, structure_level};
@@ -32,27 +32,21 @@ pub fn tube_scales<const D: usize>(
     mask: &Mask<D>,
     least_extent: f64,
     exec: &Exec,
-) -> Result<Option<Vec<f64>>, FilterError> {
-    let (given_size, size) = (mask.shape().size(), image.shape().size());
-    if given_size != size {
-        return Err(FilterError::MaskSize { mask: given_size.to_vec(), image: size.to_vec() });
-    }
+) -> Result<Option<Vec<f64>>, MediumError> {
     let scales = candidates(image);
     let search = Tubes { scales: scales.clone(), elongation: 1.0, contrast: None, ..tubes.clone() };
     let found = vesselness(image, &search, exec)?;
     let speed_sq = found.response.map(|response| response.max(WEAKEST).powi(2));
-    let medium =
-        given(speed_sq, Form::Pointwise).and_then(|medium| medium.with_walls(mask.clone()));
-    let Ok(medium) = medium else { unreachable!("responses are numbers, the mask fits") };
+    let medium = given(speed_sq, Form::Pointwise)?.with_walls(mask.clone())?;
     let Some(level) = structure_level(&medium) else { return Ok(None) };
     let mut long = image.map(|_| false);
     for cell in long_pieces(&medium, level, least_extent).into_iter().flatten() {
         long.values_mut()[cell] = true;
     }
     let centreline = thin(&long);
-    let chosen = centreline.values().iter().zip(found.scale.values()).filter(|(on_it, _)| **on_it);
+    let voters = centreline.values().iter().zip(found.scale.values()).filter(|(on_it, _)| **on_it);
     let mut votes = vec![0.0; scales.len()];
-    for (_, &scale) in chosen {
+    for (_, &scale) in voters {
         if let Some(vote) = scales.iter().position(|&candidate| candidate == scale) {
             votes[vote] += 1.0;
         }
