@@ -1,17 +1,23 @@
 //! Matrices as sums of squares along the lattice: Selling's decomposition.
 
 use super::Matrix;
-use super::tensor::inverse;
+use super::tensor::{apply, inverse};
+use std::array;
 
 /// The weights along the lattice are exact to this many binary digits below the largest component.
-const DIGITS: i32 = 62;
+/// Vectors of a superbase are at most twelve times as long (squared) as the longest axis, so their
+/// products are below 2^63.
+const DIGITS: i32 = 59;
 
 /// The largest ratio of eigenvalues that is decomposed as it is. Offsets have up to its square root
 /// in cells.
 const LARGEST_CONDITION: f64 = 1e8;
 
+/// How much shorter than half of another vector what it shares with a third must be to be more than rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// Integer vectors.
-type Vectors<const D: usize, const N: usize> = [[i128; D]; N];
+type Vectors<const D: usize, const N: usize> = [[i64; D]; N];
 
 /// Writes a symmetric positive definite matrix as a sum of `weight offset offset'` over whole
 /// offsets: at most 3 in the plane, 6 in space, with positive weights.
@@ -23,8 +29,9 @@ type Vectors<const D: usize, const N: usize> = [[i128; D]; N];
 /// that.
 ///
 /// The offsets come from an obtuse superbase, which Selling's algorithm finds (Selling 1874;
-/// Fehrenbach & Mirebeau, "Sparse non-negative stencils for anisotropic diffusion", 2014). It runs
-/// in whole numbers: no rounding can make it go in circles or a weight negative.
+/// Fehrenbach & Mirebeau, "Sparse non-negative stencils for anisotropic diffusion", 2014). Floating
+/// point brings it near; the last steps and the weights are in whole numbers: no rounding can make
+/// it go in circles or a weight negative.
 pub(crate) fn selling<const D: usize>(
     matrix: &Matrix<D>,
 ) -> impl Iterator<Item = ([i32; D], f64)> + use<D> {
@@ -71,8 +78,8 @@ pub(crate) fn smallest_eigenvalue<const D: usize>(matrix: &Matrix<D>) -> f64 {
 fn decompose<const D: usize>(matrix: &Matrix<D>) -> [([i32; D], f64); 6] {
     let largest = (0..D).map(|axis| matrix[axis][axis]).fold(0.0, f64::max);
     let unit = largest / 2_f64.powi(DIGITS);
-    let whole = matrix.map(|row| row.map(|component| (component / unit).round() as i128));
-    let superbase = obtuse(&whole, reduced_basis(&whole));
+    let whole = matrix.map(|row| row.map(|component| (component / unit) as i64));
+    let superbase = obtuse(&whole, reduced_basis(matrix));
     let mut sum = [([0; D], 0.0); 6];
     let pairs = (0..=D).flat_map(|i| (0..i).map(move |j| [i, j]));
     for (term, [i, j]) in sum.iter_mut().zip(pairs) {
@@ -83,35 +90,40 @@ fn decompose<const D: usize>(matrix: &Matrix<D>) -> [([i32; D], f64); 6] {
     sum
 }
 
-/// `a' M b`
-fn product<const D: usize>(m: &[[i128; D]; D], a: &[i128; D], b: &[i128; D]) -> i128 {
-    let row = |i: usize| -> i128 { (0..D).map(|j| m[i][j] * b[j]).sum() };
-    (0..D).map(|i| a[i] * row(i)).sum()
+/// `a' M b`; what overflows on the way comes back, since the sum does not.
+fn product<const D: usize>(m: &[[i64; D]; D], a: &[i64; D], b: &[i64; D]) -> i64 {
+    let dot = |a: &[i64; D], b: &[i64; D]| {
+        (0..D).fold(0_i64, |sum, i| sum.wrapping_add(a[i].wrapping_mul(b[i])))
+    };
+    dot(a, &m.map(|row| dot(&row, b)))
 }
 
-/// A basis of the lattice in which no vector can be shortened, in the norm of `m`, by one other.
-fn reduced_basis<const D: usize>(m: &[[i128; D]; D]) -> Vectors<D, D> {
-    let mut basis: Vectors<D, D> =
-        std::array::from_fn(|i| std::array::from_fn(|axis| i128::from(i == axis)));
+/// A basis of the lattice in which, but for rounding, no vector can be shortened, in the norm of `m`,
+/// by one other.
+fn reduced_basis<const D: usize>(m: &Matrix<D>) -> Vectors<D, D> {
+    let mut basis = [[0.0; D]; D];
+    (0..D).for_each(|axis| basis[axis][axis] = 1.0);
     let pairs = || (0..D).flat_map(|i| (0..D).map(move |j| [i, j])).filter(|[i, j]| i != j);
     let mut pairs_left = pairs();
     while let Some([i, j]) = pairs_left.next() {
-        let (shared, norm) = (product(m, &basis[i], &basis[j]), product(m, &basis[i], &basis[i]));
-        if 2 * shared.abs() > norm {
-            let times = (2 * shared + norm).div_euclid(2 * norm);
-            basis[j] = std::array::from_fn(|axis| basis[j][axis] - times * basis[i][axis]);
+        let covector = apply(m, basis[i]);
+        let along = |b: &[f64; D]| -> f64 { (0..D).map(|axis| covector[axis] * b[axis]).sum() };
+        let times = along(&basis[j]) / along(&basis[i]);
+        if times.abs() > 0.5 + ROUNDING {
+            let whole = times.round();
+            basis[j] = array::from_fn(|axis| basis[j][axis] - whole * basis[i][axis]);
             pairs_left = pairs();
         }
     }
-    basis
+    basis.map(|vector| vector.map(|part| part as i64))
 }
 
 /// The vectors of a basis and minus their sum, changed until no two of them make an acute angle: an
 /// array of four, of which the plane uses three.
-fn obtuse<const D: usize>(m: &[[i128; D]; D], basis: Vectors<D, D>) -> Vectors<D, 4> {
+fn obtuse<const D: usize>(m: &[[i64; D]; D], basis: Vectors<D, D>) -> Vectors<D, 4> {
     let mut superbase = [[0; D]; 4];
     superbase[..D].copy_from_slice(&basis);
-    superbase[D] = std::array::from_fn(|axis| -basis.iter().map(|b| b[axis]).sum::<i128>());
+    superbase[D] = array::from_fn(|axis| -basis.iter().map(|b| b[axis]).sum::<i64>());
     let pairs = || (0..=D).flat_map(|i| (0..i).map(move |j| [i, j]));
     while let Some([i, j]) = pairs().find(|&[i, j]| product(m, &superbase[i], &superbase[j]) > 0) {
         let turned = superbase[i];
@@ -126,19 +138,19 @@ fn obtuse<const D: usize>(m: &[[i128; D]; D], basis: Vectors<D, D>) -> Vectors<D
 }
 
 /// The vector perpendicular to the one other (in the plane) or to both (in space).
-fn across<const D: usize>(mut others: impl Iterator<Item = [i128; D]>) -> [i128; D] {
+fn across<const D: usize>(mut others: impl Iterator<Item = [i64; D]>) -> [i64; D] {
     let a = others.next().unwrap_or([0; D]);
     let Some(b) = others.next() else {
-        return std::array::from_fn(|axis| if axis == 0 { -a[1] } else { a[0] });
+        return array::from_fn(|axis| if axis == 0 { -a[1] } else { a[0] });
     };
-    std::array::from_fn(|axis| {
+    array::from_fn(|axis| {
         let [i, j] = [(axis + 1) % D, (axis + 2) % D];
         a[i] * b[j] - a[j] * b[i]
     })
 }
 
 /// The offset or its opposite, whichever points forward in memory.
-fn forward<const D: usize>(offset: [i128; D]) -> [i32; D] {
+fn forward<const D: usize>(offset: [i64; D]) -> [i32; D] {
     let last = offset.into_iter().rev().find(|&part| part != 0).unwrap_or(1);
     offset.map(|part| (last.signum() * part) as i32)
 }
@@ -149,8 +161,8 @@ mod tests {
     use proptest::prelude::*;
 
     fn outer<const D: usize>(sum: &[([i32; D], f64)]) -> Matrix<D> {
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
+        array::from_fn(|i| {
+            array::from_fn(|j| {
                 sum.iter().map(|(e, weight)| weight * f64::from(e[i]) * f64::from(e[j])).sum()
             })
         })
@@ -189,11 +201,11 @@ mod tests {
                 (row[a], row[b]) = (cos * row[a] - sin * row[b], sin * row[a] + cos * row[b]);
             }
             let (p, q) = (matrix[a], matrix[b]);
-            matrix[a] = std::array::from_fn(|column| cos * p[column] - sin * q[column]);
-            matrix[b] = std::array::from_fn(|column| sin * p[column] + cos * q[column]);
+            matrix[a] = array::from_fn(|column| cos * p[column] - sin * q[column]);
+            matrix[b] = array::from_fn(|column| sin * p[column] + cos * q[column]);
         }
         // The same bits above and below the diagonal.
-        std::array::from_fn(|i| std::array::from_fn(|j| matrix[i.min(j)][i.max(j)]))
+        array::from_fn(|i| array::from_fn(|j| matrix[i.min(j)][i.max(j)]))
     }
 
     proptest! {

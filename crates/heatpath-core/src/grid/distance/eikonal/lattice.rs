@@ -6,6 +6,7 @@ use crate::grid::medium::Medium;
 use crate::grid::stencil::selling;
 use crate::grid::tensor::{apply, inverse, per_cell};
 use crate::grid::{Mask, Matrix, Shape};
+use std::array;
 
 /// The eikonal equation along a few offsets of the lattice in each cell, those of its tensor's
 /// decomposition `D = sum of weight offset offset'`: the weighted squared derivatives add up to 1
@@ -59,7 +60,7 @@ impl<const D: usize, const N: usize> Lattice<D, N> {
                 }
             }
         });
-        let strides = std::array::from_fn(|axis| shape.stride(axis));
+        let strides = array::from_fn(|axis| shape.stride(axis));
         let mut lattice =
             Self { shape, strides, terms, starts: Vec::new(), dependents: Vec::new() };
         lattice.find_dependents();
@@ -126,13 +127,17 @@ fn steps<const D: usize>(
     index: [usize; D],
     offset: [i16; D],
 ) -> [u8; 2] {
-    let point = |steps: f64| -> [f64; D] {
-        std::array::from_fn(|axis| index[axis] as f64 + steps * f64::from(offset[axis]))
+    let size = mask.shape().size();
+    let point = |steps: isize| {
+        array::from_fn(|axis| index[axis].wrapping_add_signed(steps * isize::from(offset[axis])))
     };
-    let is_open = |from: f64, to: f64| {
-        mask.shape().contains(point(to)) && (!walls || mask.segment_is_open(point(from), point(to)))
+    let is_inside = |point: &[usize; D]| (0..D).all(|axis| point[axis] < size[axis]);
+    let is_clear = |from: isize, to: isize| {
+        let [from, to] = [from, to].map(|steps| point(steps).map(|part| part as f64));
+        mask.segment_is_open(from, to)
     };
-    [-1.0, 1.0].map(|side| match (is_open(0.0, side), is_open(side, 2.0 * side)) {
+    let is_open = |from, to| is_inside(&point(to)) && (!walls || is_clear(from, to));
+    [-1, 1].map(|side| match (is_open(0, side), is_open(side, 2 * side)) {
         (false, _) => 0,
         (true, false) => 1,
         (true, true) => 2,
