@@ -97,14 +97,14 @@ def uniform(side: int) -> Problem:
     return Problem(np.zeros((side, side)), (side * 3 // 8, side // 3), uniform=True)
 
 
-def growing(side: int) -> Problem:
-    """A square in which the speed grows from 1/3 to 1; the source is in the middle.
+def growing(side: int, dimension: int = 2) -> Problem:
+    """A square or cube in which the speed grows from 1/3 to 1; the source is in the middle.
 
     In a constant gradient of the speed the distance has a closed form (Treister & Haber 2016).
     """
     gradient = 2 / 3 / (side - 1)
-    speed = np.broadcast_to(1 / 3 + gradient * np.arange(side), (side, side)).copy()
-    source = ((side - 1) // 2,) * 2
+    speed = np.broadcast_to(1 / 3 + gradient * np.arange(side), (side,) * dimension).copy()
+    source = ((side - 1) // 2,) * dimension
     problem = Problem(speed**2, source)
     growth = (gradient * problem.from_source) ** 2 / (2 * speed * speed[source])
     return replace(problem, given=np.arccosh(1 + growth) / gradient)
@@ -144,6 +144,7 @@ PROBLEMS: dict[str, Callable[[], Problem]] = {
     "retina-1024": lambda: retina(1024),
     "retina-2048": lambda: retina(2048),
     "volume-128": lambda: volume(128),
+    "growing-volume-128": lambda: growing(128, 3),
     "sources-512": lambda: camera(512),
 }
 QUICK = ["camera-512", "retina-512", "volume-128"]

@@ -5,6 +5,7 @@ use super::stencil::Stencil;
 use super::update::{Difference, Differences, larger_root};
 use super::value::choose;
 use crate::grid::tensor::apply;
+use wide::f64x2;
 
 /// The known neighbours in one direction, on the side where they are nearer.
 #[derive(Clone, Copy, Default)]
@@ -169,13 +170,17 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
     /// `T r / r'` of the neighbours one and two steps back.
     #[inline(always)]
     fn carried(&self, distances: [f64; 2], away: f64, step_sq: f64) -> [f64; 2] {
-        let shares = [1.0, 2.0]
-            .map(|steps: f64| 1.0 - (2.0 * steps * away - steps * steps * step_sq) * self.per_r_sq);
+        // A root or a quotient of two numbers takes no longer than one.
+        let number = f64x2::splat;
+        let (one, two) = (number(2.0 * away), number(step_sq));
+        let steps = f64x2::from([1.0, 2.0]);
+        let shares = number(1.0) - (steps * one - steps * steps * two) * number(self.per_r_sq);
         // r'^2 over r^2
         let least = 1e-9 * self.per_r_sq * step_sq;
-        if (shares[0] > least) & (shares[1] > least) {
-            return [distances[0] / shares[0].sqrt(), distances[1] / shares[1].sqrt()];
+        if shares.simd_gt(number(least)).all() {
+            return (f64x2::from(distances) / shares.sqrt()).to_array();
         }
+        let shares = shares.to_array();
         // At the source itself tau is 1.
         let carried = |i: usize| {
             if shares[i] > least { distances[i] / shares[i].sqrt() } else { self.r_sq.sqrt() }

@@ -2,7 +2,7 @@
 
 use super::Order;
 use super::factor::{Factor, Upwind};
-use super::pair::{Cell, solve_two};
+use super::pair::solve_two;
 use super::queue::{Entry, Queue};
 use super::seed::Seed;
 use super::stencil::Stencil;
@@ -153,15 +153,12 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         });
         for at in (0..count).step_by(2) {
             let two = [cells[at], cells[(at + 1).min(count - 1)]];
-            let cells = two.map(|(place, index)| Cell {
-                place,
-                index,
-                upwinds: std::array::from_fn(|direction| self.upwind(place, direction)),
-            });
-            let found = solve_two(self.stencil, &self.seeds[0], &cells, LARGEST_STEP_SQ);
-            for (cell, found) in cells.iter().zip(found).take(count - at) {
-                let trial = found.unwrap_or_else(|| self.update(cell.place, cell.index).0);
-                self.offer(cell.place, trial.max(distance), 0);
+            let upwind = |place, direction| self.upwind(place, direction);
+            let seed = &self.seeds[0];
+            let found = solve_two(self.stencil, seed, &two, upwind, LARGEST_STEP_SQ);
+            for ((cell, index), found) in two.into_iter().zip(found).take(count - at) {
+                let trial = found.unwrap_or_else(|| self.update(cell, index).0);
+                self.offer(cell, trial.max(distance), 0);
             }
         }
     }

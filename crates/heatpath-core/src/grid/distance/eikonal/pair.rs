@@ -5,14 +5,6 @@ use super::seed::Seed;
 use super::stencil::Stencil;
 use wide::f64x2;
 
-/// A cell that is solved for: its place and index, and what is known around it.
-#[derive(Clone, Copy)]
-pub(super) struct Cell<const D: usize, const N: usize> {
-    pub(super) place: usize,
-    pub(super) index: [usize; D],
-    pub(super) upwinds: [Upwind; N],
-}
-
 /// The distances of two cells along the axes, to second order, in the usual case that each comes from
 /// all known neighbours, the only seed is further than a cell away, and no step costs more than
 /// `largest_step_sq`; `None` in others.
@@ -24,19 +16,29 @@ pub(super) struct Cell<const D: usize, const N: usize> {
 pub(super) fn solve_two<const D: usize, const N: usize>(
     stencil: &impl Stencil<D, N>,
     seed: &Seed<D>,
-    cells: &[Cell<D, N>; 2],
+    cells: &[(usize, [usize; D]); 2],
+    upwind: impl Fn(usize, usize) -> Upwind,
     largest_step_sq: f64,
 ) -> [Option<f64>; 2] {
     let number = f64x2::splat;
+    let places = cells.map(|(place, _)| place);
     let initial = number(seed.initial);
-    let d: [f64x2; D] = std::array::from_fn(|axis| {
-        both(cells, |cell| cell.index[axis] as f64) - number(seed.point[axis])
-    });
+    let mut d = [number(0.0); D];
+    for (axis, d) in d.iter_mut().enumerate() {
+        *d = f64x2::from(cells.map(|(_, index)| index[axis] as f64)) - number(seed.point[axis]);
+    }
     let covector: [f64x2; D] = std::array::from_fn(|row| dot(&seed.metric[row].map(number), &d));
     let r_sq = dot(&d, &covector);
     let per_r_sq = number(1.0) / r_sq;
-    let near: [f64x2; N] = std::array::from_fn(|i| both(cells, |cell| cell.upwinds[i].near));
-    let nearest = near.iter().fold(number(f64::INFINITY), |least, near| least.fast_min(*near));
+    let mut nearest = number(f64::INFINITY);
+    let (mut near, mut next, mut side) = ([nearest; N], [nearest; N], [nearest; N]);
+    for direction in 0..N {
+        let (a, b) = (upwind(places[0], direction), upwind(places[1], direction));
+        near[direction] = f64x2::from([a.near, b.near]);
+        next[direction] = f64x2::from([a.next, b.next]);
+        side[direction] = f64x2::from([a.side as f64, b.side as f64]);
+        nearest = nearest.fast_min(near[direction]);
+    }
     let mut farthest = nearest;
     let mut is_usual = nearest.simd_eq(nearest);
     let (mut a, mut b, mut c) = (number(0.0), number(0.0), number(-1.0));
@@ -45,12 +47,13 @@ pub(super) fn solve_two<const D: usize, const N: usize>(
         let is_missing = near[direction].simd_eq(number(f64::INFINITY));
         let near = is_missing.bitselect(nearest, near[direction]);
         farthest = farthest.fast_max(near);
-        let next = both(cells, |cell| cell.upwinds[direction].next);
-        let weight = both(cells, |cell| stencil.weight(cell.place, direction));
-        let step_sq = both(cells, |cell| stencil.length_sq(cell.place, direction, &seed.metric));
+        let next = next[direction];
+        let weight = f64x2::from(places.map(|place| stencil.weight(place, direction)));
+        let step_sq = places.map(|place| stencil.length_sq(place, direction, &seed.metric));
+        let step_sq = f64x2::from(step_sq);
         let along = covector[direction];
         let is_beside = along.simd_ne(number(0.0)) & along.abs().simd_lt(step_sq);
-        let away = both(cells, |cell| -(cell.upwinds[direction].side as f64)) * along;
+        let away = -side[direction] * along;
         let is_factored =
             away.simd_gt(number(0.0)) | (away * away).simd_lt(number(0.25) * r_sq * step_sq);
         let growth = is_factored & (away * per_r_sq);
@@ -87,11 +90,6 @@ pub(super) fn solve_two<const D: usize, const N: usize>(
     }
     let (distance, usual) = (distance.to_array(), is_usual.to_bitmask());
     [0, 1].map(|i| (usual >> i & 1 == 1).then_some(distance[i]))
-}
-
-#[inline(always)]
-fn both<C>(cells: &[C; 2], of: impl Fn(&C) -> f64) -> f64x2 {
-    f64x2::from([of(&cells[0]), of(&cells[1])])
 }
 
 #[inline(always)]
