@@ -228,6 +228,9 @@
  */
 #define HP_SOLVER_IMPLICIT 1
 
+/** The most scales that hp_tube_scales() finds. */
+#define HP_MOST_TUBE_SCALES 3
+
 /** The path ends at a source. */
 #define HP_ENDED_SOURCE 1
 
@@ -596,8 +599,8 @@ typedef struct hp_options {
   double anisotropy;
   /**
    * For HP_MEDIUM_VESSELNESS: the half widths of tubes to look for, in multiples of the smallest
-   * spacing; 2, 3 and 4.5 by default. For HP_MEDIUM_TENSOR: one, the Gaussian before the
-   * derivatives; 2 by default. Need not be aligned.
+   * spacing; 2, 3 and 4.5 by default; hp_tube_scales() finds those of an image. For HP_MEDIUM_TENSOR:
+   * one, the Gaussian before the derivatives; 2 by default. Need not be aligned.
    */
   const double *scales;
   /** How many scales there are, up to 64; 0, the default, stands for those above. */
@@ -1154,6 +1157,32 @@ hp_status hp_medium(const struct hp_buffer *image,
                     uint64_t source_count,
                     const struct hp_options *options,
                     const struct hp_buffer *squared_speed);
+
+/**
+ * Finds the scales for HP_MEDIUM_VESSELNESS from the tubes that the image shows.
+ *
+ * Tubes are looked for at scales from 1 to an eighth of the shortest side. Along the middle of what is
+ * long and strong each pixel votes for the scale of its strongest response; the scales have a sixth, a half
+ * and five sixths of the votes below them. Uneven light looks like a wide tube: set hp_options.normalize.
+ *
+ * image, mask and options are those of hp_distance(). The medium must be HP_MEDIUM_VESSELNESS; its polarity
+ * counts, its scales do not.
+ *
+ * scales: room for HP_MOST_TUBE_SCALES numbers. Receives the scales in ascending order, to be set as
+ * hp_options.scales; need not be aligned.
+ *
+ * count: receives how many there are, from 1. Need not be aligned.
+ *
+ * HP_NO_ANSWER is returned if the image shows nothing long.
+ *
+ * The caller promises:
+ * As hp_distance(). scales and count must be NULL or point to memory that can be written.
+ */
+hp_status hp_tube_scales(const struct hp_buffer *image,
+                         const struct hp_buffer *mask,
+                         const struct hp_options *options,
+                         double *scales,
+                         uint64_t *count);
 
 /**
  * Traces the minimal path from each end point to a source.
@@ -2045,6 +2074,8 @@ struct hp_api {
       const struct hp_array *faces, const struct hp_array *weights);
   hp_status (*mesh_loop_create)(const struct hp_mesh *mesh, const struct hp_surface_points *points,
       struct hp_paths **loops);
+  hp_status (*tube_scales)(const struct hp_buffer *image, const struct hp_buffer *mask,
+      const struct hp_options *options, double *scales, uint64_t *count);
 };
 
 #ifdef __cplusplus

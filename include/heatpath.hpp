@@ -351,6 +351,18 @@ void medium(const Buffer &image, const Points<N> &sources, const Buffer &result,
     });
 }
 
+/** The scales of the tubes that an image shows, for Options::scales; see hp_tube_scales(). */
+inline std::vector<double> tube_scales(const Buffer &image, const Options &options, const Buffer &mask = {})
+{
+    std::vector<double> scales(HP_MOST_TUBE_SCALES);
+    std::uint64_t count = 0;
+    detail::run(options, [&](const hp_options *plain) {
+        return hp_tube_scales(&image, detail::optional(mask), plain, scales.data(), &count);
+    });
+    scales.resize(static_cast<std::size_t>(count));
+    return scales;
+}
+
 /** The minimal path from each end to a source, in the order of the ends; see hp_paths_create(). */
 template <std::size_t N>
 std::vector<Path<N>> paths(const Buffer &image, const Points<N> &sources, const Points<N> &ends,

@@ -44,6 +44,37 @@ static void tubes_are_fast(void)
     CHECK(speed[10 * WIDTH + 10] > 1e-4);
 }
 
+/* The middle of the bands that are seen best is 4 and 8 pixels wide. */
+static void scales_are_found(void)
+{
+    enum { SIDE = 128 };
+    static uint8_t bands[SIDE * SIDE];
+    hp_buffer wide = buffer_of(bands, HP_U8);
+    hp_options options = defaults();
+    double scales[HP_MOST_TUBE_SCALES] = {-1, -1, -1};
+    uint64_t count = 77;
+    int i;
+    wide.size[0] = wide.size[1] = SIDE;
+    options.medium = HP_MEDIUM_VESSELNESS;
+    EXPECT(HP_NO_ANSWER, "no tube that is", hp_tube_scales(&wide, NULL, &options, scales, &count));
+    CHECK(count == 77 && scales[0] == -1);
+    for (i = 0; i < SIDE * SIDE; i++) {
+        int y = i / SIDE;
+        bands[i] = (uint8_t)((y >= 30 && y < 34) || (y >= 80 && y < 88) ? 200 : 40);
+    }
+    EXPECT(HP_OK, "", hp_tube_scales(&wide, NULL, &options, scales, &count));
+    CHECK(count >= 2 && scales[0] > 1 && scales[0] < 2.5);
+    CHECK(scales[count - 1] > 2.5 && scales[count - 1] < 5);
+    options.polarity = HP_POLARITY_DARK;
+    EXPECT(HP_OK, "", hp_tube_scales(&wide, NULL, &options, scales, &count));
+    CHECK(count >= 1 && scales[count - 1] > 5);
+    EXPECT(HP_INVALID_ARGUMENT, "NULL", hp_tube_scales(&wide, NULL, &options, scales, NULL));
+    EXPECT(HP_INVALID_ARGUMENT, "NULL", hp_tube_scales(&wide, NULL, &options, NULL, &count));
+    options.medium = HP_MEDIUM_UNIFORM;
+    EXPECT(HP_INVALID_ARGUMENT, "HP_MEDIUM_VESSELNESS",
+           hp_tube_scales(&wide, NULL, &options, scales, &count));
+}
+
 /* With D = 1 along and (1 - A) / (1 + A) across, det(D)^(1/2) is the same everywhere. */
 static void directions_are_as_the_header_says(void)
 {
@@ -198,6 +229,7 @@ int main(void)
     image = buffer_of(band, HP_U8);
     conductivity_is_as_the_header_says();
     tubes_are_fast();
+    scales_are_found();
     directions_are_as_the_header_says();
     walls_can_be_thicker();
     the_heat_method_gives_lengths();

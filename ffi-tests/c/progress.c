@@ -72,8 +72,12 @@ static void solvers(hp_options options)
 static void images(hp_options options)
 {
     hp_paths *paths = NULL;
+    double scales[HP_MOST_TUBE_SCALES];
+    uint64_t count;
     options.reference = 0.75;
     RUN(hp_medium(&image, NULL, NULL, 0, &options, &result), options);
+    if (options.medium == HP_MEDIUM_VESSELNESS)
+        RUN(hp_tube_scales(&image, NULL, &options, scales, &count), options);
     RUN(hp_distance(&image, NULL, sources, 3, &options, &result), options);
     RUN(hp_paths_create(&image, NULL, sources, 3, ends, 2, &options, &paths), options);
     hp_paths_free(paths);

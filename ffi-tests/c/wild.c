@@ -188,8 +188,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    uint64_t side[3] = {0, 0, 0};
-    double points[6], scales[3];
+    uint64_t side[3] = {0, 0, 0}, count;
+    double points[6], scales[3], found[HP_MOST_TUBE_SCALES];
     hp_buffer image, mask, first, second;
     hp_options options;
     hp_graph *graph;
@@ -213,7 +213,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         const hp_buffer *walls = below(2) ? &mask : NULL;
         const hp_options *how = below(8) ? &options : NULL;
         uint64_t sources = below(3);
-        switch (below(6)) {
+        switch (below(7)) {
         case 0: answer(hp_distance(&image, walls, points, sources, how, &first)); break;
         case 1: answer(hp_medium(&image, walls, points, sources, how, &first)); break;
         case 2:
@@ -225,7 +225,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                                    &graph));
             hp_graph_free(graph);
             break;
-        case 4:
+        case 4: answer(hp_tube_scales(&image, walls, how, found, &count)); break;
+        case 5:
             answer(hp_key_points_create(&image, walls, points, sources, how, NULL, &graph));
             hp_graph_free(graph);
             break;

@@ -29,6 +29,11 @@ static void results_are_those_of_c()
     std::vector<double> speed(PIXELS);
     heatpath::medium(picture(), from, heatpath::Buffer(speed.data(), {WIDTH, HEIGHT}));
     CHECK(fabs(speed[5 * WIDTH + 4] - 1.001) < 1e-12);
+
+    heatpath::Options tubes;
+    tubes.medium = HP_MEDIUM_VESSELNESS;
+    const auto scales = heatpath::tube_scales(picture(), tubes);
+    CHECK(scales.size() == 1 && scales[0] >= 1 && scales[0] <= HEIGHT / 8.0);
 }
 
 static void solvers_move()

@@ -57,6 +57,7 @@ table! {
     hp_mesh_paths_create hp_mesh_paths_through hp_mesh_isolines_create hp_mesh_curvature
     hp_solver_nearest hp_solver_matrix hp_solver_bridge
     hp_mesh_locate hp_paths_places hp_mesh_loop_create
+    hp_tube_scales
 }
 
 /// The table of all functions, or NULL if the library has another ABI than the caller.

@@ -179,8 +179,8 @@ pub struct hp_options {
     /// none of the latter.
     pub anisotropy: f64,
     /// For HP_MEDIUM_VESSELNESS: the half widths of tubes to look for, in multiples of the smallest
-    /// spacing; 2, 3 and 4.5 by default. For HP_MEDIUM_TENSOR: one, the Gaussian before the
-    /// derivatives; 2 by default. Need not be aligned.
+    /// spacing; 2, 3 and 4.5 by default; hp_tube_scales() finds those of an image. For HP_MEDIUM_TENSOR:
+    /// one, the Gaussian before the derivatives; 2 by default. Need not be aligned.
     pub scales: *const f64,
     /// How many scales there are, up to 64; 0, the default, stands for those above.
     pub scale_count: u64,

@@ -106,7 +106,7 @@ impl<'a, const D: usize> Scene<'a, D> {
     }
 
     /// The image as grey values from 0 to 1, in even light if that is asked for.
-    fn grey(&self, exec: &Exec) -> Result<Grid<f64, D>, Failure> {
+    pub(crate) fn grey(&self, exec: &Exec) -> Result<Grid<f64, D>, Failure> {
         // SAFETY: the promise of `read`.
         let grey = unsafe { read_grey(self.image, self.settings.range)? };
         if self.settings.normalize == 0.0 {

@@ -6,13 +6,14 @@
 use cbindgen::{Builder, Config, DocumentationLength, DocumentationStyle, Language};
 use std::path::{Path, PathBuf};
 
-const MODULES: [&str; 27] = [
+const MODULES: [&str; 28] = [
     "version",
     "status",
     "buffer",
     "options",
     "distance",
     "medium",
+    "scales",
     "paths",
     "solver",
     "nearest",
