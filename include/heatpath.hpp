@@ -354,13 +354,10 @@ void medium(const Buffer &image, const Points<N> &sources, const Buffer &result,
 /** The scales of the tubes that an image shows, for Options::scales; see hp_tube_scales(). */
 inline std::vector<double> tube_scales(const Buffer &image, const Options &options, const Buffer &mask = {})
 {
-    std::vector<double> scales(HP_MOST_TUBE_SCALES);
-    std::uint64_t count = 0;
-    detail::run(options, [&](const hp_options *plain) {
-        return hp_tube_scales(&image, detail::optional(mask), plain, scales.data(), &count);
-    });
-    scales.resize(static_cast<std::size_t>(count));
-    return scales;
+    double scales[HP_MOST_TUBE_SCALES];
+    std::uint64_t n = 0;
+    detail::run(options, [&](auto *o) { return hp_tube_scales(&image, detail::optional(mask), o, scales, &n); });
+    return {scales, scales + n};
 }
 
 /** The minimal path from each end to a source, in the order of the ends; see hp_paths_create(). */

@@ -34,6 +34,10 @@ static void results_are_those_of_c()
     tubes.medium = HP_MEDIUM_VESSELNESS;
     const auto scales = heatpath::tube_scales(picture(), tubes);
     CHECK(!scales.empty() && scales.front() >= 1 && scales.back() <= HEIGHT / 8.0);
+    double found[HP_MOST_TUBE_SCALES];
+    uint64_t count = 0;
+    EXPECT(HP_OK, "", hp_tube_scales(&image, nullptr, &tubes, found, &count));
+    CHECK(scales == std::vector<double>(found, found + count));
 }
 
 static void solvers_move()
