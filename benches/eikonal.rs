@@ -7,6 +7,7 @@ use heatpath_core::Exec;
 use heatpath_core::grid::distance::{Eikonal, EikonalOptions};
 use heatpath_core::grid::medium::{self, Form, Medium};
 use heatpath_core::grid::{Grid, Shape, Sources, TensorField};
+use std::array;
 use std::hint::black_box;
 
 /// The speed grows with x from 0.5 to 1.5.
@@ -16,14 +17,19 @@ fn growing<const D: usize>(size: [usize; D]) -> Medium<D> {
     medium::given(Grid::from_fn(Shape::new(size).unwrap(), field), Form::Pointwise).unwrap()
 }
 
-/// Anisotropy 0.9 along circles around a point beside the source.
-fn swirl(n: usize) -> Medium<2> {
+/// Anisotropy 0.9 along circles around an axis beside the source.
+fn swirl<const D: usize>(size: [usize; D]) -> Medium<D> {
     let (along, across) = (1.0, 1.0 / 19.0);
-    let field = TensorField::from_fn(Shape::new([n, n]).unwrap(), |[x, y]| {
-        let (sin, cos) = (x as f64 - 0.3 * n as f64).atan2(y as f64 - 0.45 * n as f64).sin_cos();
-        let (xx, yy) = (cos * cos, sin * sin);
-        let xy = (across - along) * sin * cos;
-        [[along * xx + across * yy, xy], [xy, along * yy + across * xx]]
+    let center = [0.3 * size[0] as f64, 0.45 * size[1] as f64];
+    let field = TensorField::from_fn(Shape::new(size).unwrap(), |index| {
+        let [x, y] = [0, 1].map(|axis| index[axis] as f64 - center[axis]);
+        let mut tangent = [0.0; D];
+        (tangent[1], tangent[0]) = x.atan2(y).sin_cos();
+        let entry = |i: usize, j: usize| {
+            let identity = f64::from(u8::from(i == j));
+            across * identity + (along - across) * tangent[i] * tangent[j]
+        };
+        array::from_fn(|i| array::from_fn(|j| entry(i, j)))
     });
     medium::given_tensor(field).unwrap()
 }
@@ -48,9 +54,10 @@ fn march<const D: usize>(criterion: &mut Criterion, name: &str, medium: &Medium<
 fn eikonal(criterion: &mut Criterion) {
     march(criterion, "picture", &growing([512, 512]));
     march(criterion, "picture", &growing([1024, 1024]));
-    march(criterion, "picture, tensors", &swirl(1024));
+    march(criterion, "picture, tensors", &swirl([1024, 1024]));
     march(criterion, "volume", &growing([64, 64, 64]));
     march(criterion, "volume", &growing([128, 128, 128]));
+    march(criterion, "volume, tensors", &swirl([64, 64, 64]));
 }
 
 criterion_group!(benches, eikonal);

@@ -21,6 +21,16 @@ use pulp::{
     x86::{V3, V4},
 };
 
+/// Has the memory of an item fetched into the cache while the program goes on; where there is no such
+/// instruction, reads it.
+#[inline(always)]
+pub(crate) fn prefetch<T: Copy>(item: &T) {
+    #[cfg(target_arch = "x86_64")]
+    safe_arch::prefetch_t0(item);
+    #[cfg(not(target_arch = "x86_64"))]
+    std::hint::black_box(*item);
+}
+
 /// The vector instructions that a computation uses. Results do not depend on them.
 ///
 /// One binary holds the inner loops once for each level and takes the best that the processor has.

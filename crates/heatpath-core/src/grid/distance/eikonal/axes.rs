@@ -1,8 +1,10 @@
 //! The stencil of an isotropic medium.
 
-use super::stencil::Stencil;
+use super::stencil::{Dependent, Stencil};
+use super::value::Value;
 use crate::grid::medium::Medium;
 use crate::grid::{Matrix, Shape};
+use crate::simd::prefetch;
 
 /// The eikonal equation along the axes of the grid: in a cell of speed c the squared derivatives add
 /// up to `1 / c^2`.
@@ -163,11 +165,7 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
     }
 
     #[inline]
-    fn for_dependents(
-        &self,
-        place: usize,
-        mut visit: impl FnMut(usize, [usize; D], Option<usize>),
-    ) {
+    fn for_dependents(&self, place: usize, mut visit: impl FnMut(Dependent<D>)) {
         let index = self.index(place);
         for axis in 0..D {
             let (mut behind, mut ahead) = (index, index);
@@ -175,8 +173,22 @@ impl<const D: usize> Stencil<D, D> for Axes<D> {
             behind[axis] = behind[axis].wrapping_sub(1);
             ahead[axis] += 1;
             let at = |steps| self.step(place, axis, steps);
-            visit(at(-1), behind, Some(at(-2)));
-            visit(at(1), ahead, Some(at(2)));
+            for (side, index) in [(-1, behind), (1, ahead)] {
+                let (place, opposite) = (at(side), Some(at(2 * side)));
+                visit(Dependent { place, index, direction: Some(axis), opposite });
+            }
+        }
+    }
+
+    #[inline]
+    fn prefetch_around(&self, place: usize, values: &[Value]) {
+        for axis in 0..D {
+            for side in [-1, 1] {
+                let (near, next) = (self.step(place, axis, side), self.step(place, axis, 2 * side));
+                prefetch(&self.speed_sq[near]);
+                prefetch(&values[near]);
+                prefetch(&values[next]);
+            }
         }
     }
 }

@@ -94,6 +94,23 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
         counts.then_some(distance)
     }
 
+    /// The distance from the neighbours in one direction, if no other direction counts.
+    #[inline(always)]
+    pub(super) fn solve_with_one(
+        &self,
+        direction: usize,
+        upwind: &Upwind,
+        second_order: bool,
+    ) -> Option<f64> {
+        if (0..N).any(|other| other != direction && self.is_beside(other)) {
+            return None;
+        }
+        let difference = self.difference(direction, upwind, second_order);
+        let distance = larger_root(&[difference], upwind.near)?;
+        let Difference { slope, rest, .. } = difference;
+        (slope > 0.0 && slope * distance >= rest).then_some(distance)
+    }
+
     /// The distance in any case.
     fn solve_with_some(&self, upwinds: &[Upwind; N], second_order: bool) -> Option<f64> {
         let nearest = upwinds.iter().map(|upwind| upwind.near).fold(f64::INFINITY, f64::min);
@@ -132,9 +149,15 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Factor<'a, D, N, S> {
     #[inline]
     fn counts_alone(&self, direction: usize, upwind: &Upwind) -> bool {
         let along = self.stencil.along(self.place, direction, &self.covector);
+        self.is_beside(direction) | (upwind.is_foreign & ((along > 0.0) == (upwind.side < 0)))
+    }
+
+    /// Whether the source lies less than a step away in a direction, and not level.
+    #[inline]
+    fn is_beside(&self, direction: usize) -> bool {
+        let along = self.stencil.along(self.place, direction, &self.covector);
         let step_sq = self.stencil.length_sq(self.place, direction, &self.seed.metric);
-        let is_beside = (along != 0.0) & (along.abs() < step_sq);
-        is_beside | (upwind.is_foreign & ((along > 0.0) == (upwind.side < 0)))
+        (along != 0.0) & (along.abs() < step_sq)
     }
 
     /// With `T = r tau`, the derivative away from the neighbour is `T (n + r'/r) - r rest(tau)`,

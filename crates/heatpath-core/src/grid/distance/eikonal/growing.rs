@@ -2,7 +2,7 @@
 
 use super::queue::Entry;
 use super::seed::Seed;
-use super::stencil::Stencil;
+use super::stencil::{Dependent, Stencil};
 use super::update::{Difference, Differences};
 use super::{AnyStencil, Eikonal};
 use crate::exec::{Cancelled, Exec};
@@ -148,10 +148,10 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Growing<'a, D, N, S> 
 
     fn spread(&mut self, place: usize) {
         let stencil = self.stencil;
-        stencil.for_dependents(place, |cell, _, _| {
-            if stencil.is_open(cell) {
-                let (distance, length) = self.update(cell);
-                self.offer(cell, distance, length);
+        stencil.for_dependents(place, |Dependent { place, .. }| {
+            if stencil.is_open(place) {
+                let (distance, length) = self.update(place);
+                self.offer(place, distance, length);
             }
         });
     }

@@ -1,11 +1,13 @@
 //! The stencil of an anisotropic medium.
 
-use super::stencil::Stencil;
+use super::stencil::{Dependent, Stencil};
+use super::value::Value;
 use crate::exec::Exec;
 use crate::grid::medium::Medium;
 use crate::grid::stencil::selling;
 use crate::grid::tensor::{apply, inverse, per_cell};
 use crate::grid::{Mask, Matrix, Shape};
+use crate::simd::prefetch;
 use std::array;
 
 /// The eikonal equation along a few offsets of the lattice in each cell, those of its tensor's
@@ -19,7 +21,7 @@ pub(super) struct Lattice<const D: usize, const N: usize> {
     terms: Vec<[Term<D>; N]>,
     /// For each cell the first of its `dependents`, and their number at the end.
     starts: Vec<u32>,
-    dependents: Vec<Dependent>,
+    dependents: Vec<PackedDependent>,
 }
 
 /// A weight along an offset; 0 along none.
@@ -33,7 +35,7 @@ struct Term<const D: usize> {
 
 /// A cell whose equation holds another.
 #[derive(Clone, Copy, Debug, Default)]
-struct Dependent {
+struct PackedDependent {
     cell: u32,
     /// `N` if it is a neighbour along an axis.
     term: u8,
@@ -74,7 +76,7 @@ impl<const D: usize, const N: usize> Lattice<D, N> {
             starts[cell + 1] += starts[cell];
         }
         let mut next = starts.clone();
-        let mut dependents = vec![Dependent::default(); starts[self.shape.cells()] as usize];
+        let mut dependents = vec![PackedDependent::default(); starts[self.shape.cells()] as usize];
         self.for_pairs(|dependent, other| {
             dependents[next[other] as usize] = dependent;
             next[other] += 1;
@@ -83,18 +85,21 @@ impl<const D: usize, const N: usize> Lattice<D, N> {
     }
 
     /// Calls `visit` with each cell and each other that its equation holds.
-    fn for_pairs(&self, mut visit: impl FnMut(Dependent, usize)) {
+    fn for_pairs(&self, mut visit: impl FnMut(PackedDependent, usize)) {
         for (cell, terms) in self.terms.iter().enumerate() {
             for term in 0..terms.len() {
                 for ahead in [false, true] {
                     let steps = if ahead { 1 } else { -1 };
                     if let Some(other) = self.neighbour(cell, term, steps) {
-                        visit(Dependent { cell: cell as u32, term: term as u8, ahead }, other);
+                        visit(
+                            PackedDependent { cell: cell as u32, term: term as u8, ahead },
+                            other,
+                        );
                     }
                 }
             }
             if self.has_closed_side(cell) {
-                let along_axis = Dependent { cell: cell as u32, term: N as u8, ahead: false };
+                let along_axis = PackedDependent { cell: cell as u32, term: N as u8, ahead: false };
                 let neighbours = self.shape.neighbours(cell).filter(|&other| self.is_open(other));
                 neighbours.for_each(|other| visit(along_axis, other));
             }
@@ -223,18 +228,24 @@ impl<const D: usize, const N: usize> Stencil<D, N> for Lattice<D, N> {
     }
 
     #[inline]
-    fn for_dependents(
-        &self,
-        place: usize,
-        mut visit: impl FnMut(usize, [usize; D], Option<usize>),
-    ) {
+    fn for_dependents(&self, place: usize, mut visit: impl FnMut(Dependent<D>)) {
         let range = self.starts[place] as usize..self.starts[place + 1] as usize;
-        for &Dependent { cell, term, ahead } in &self.dependents[range] {
-            let cell = cell as usize;
+        for &PackedDependent { cell, term, ahead } in &self.dependents[range] {
+            let place = cell as usize;
             let side = if ahead { -1 } else { 1 };
-            let opposite =
-                if usize::from(term) < N { self.neighbour(cell, term.into(), side) } else { None };
-            visit(cell, self.shape.index(cell), opposite);
+            let direction = (usize::from(term) < N).then_some(usize::from(term));
+            let opposite = direction.and_then(|direction| self.neighbour(place, direction, side));
+            visit(Dependent { place, index: self.shape.index(place), direction, opposite });
+        }
+    }
+
+    #[inline]
+    fn prefetch_around(&self, place: usize, values: &[Value]) {
+        let range = self.starts[place] as usize..self.starts[place + 1] as usize;
+        for &PackedDependent { cell, .. } in &self.dependents[range] {
+            let terms = &self.terms[cell as usize];
+            [&terms[0], &terms[N - 1]].into_iter().for_each(prefetch);
+            prefetch(&values[cell as usize]);
         }
     }
 }

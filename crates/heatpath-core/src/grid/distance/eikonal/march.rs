@@ -5,12 +5,12 @@ use super::factor::{Factor, Upwind};
 use super::pair::solve_two;
 use super::queue::{Entry, Queue};
 use super::seed::Seed;
-use super::stencil::Stencil;
+use super::stencil::{Dependent, Stencil};
 use super::update::{Difference, Differences};
 use super::value::{Value, choose};
 use crate::exec::{Cancelled, Exec};
 use std::collections::BTreeSet;
-use std::hint::{black_box, select_unpredictable};
+use std::hint::select_unpredictable;
 
 /// The distances so far, place by place.
 pub(super) struct Front<'a, const D: usize, const N: usize, S> {
@@ -30,24 +30,6 @@ pub(super) const REPORT_EVERY: usize = 1 << 15;
 /// more leaves room for smooth media; in mazes and rough media, where T / r is far from smooth, it
 /// catches what would overshoot.
 const LARGEST_STEP_SQ: f64 = 1.21;
-
-/// Reads what will be needed as soon as the cell at a place is known: a slot's cells are many, and
-/// their memory comes faster all at once than one after the other. In volumes, where most of it is not
-/// in a cache, this saves a fourth of the time or more; pictures and tensors would only
-/// pay for it.
-#[inline]
-fn read_around<const D: usize, const N: usize>(
-    stencil: &impl Stencil<D, N>,
-    values: &[Value],
-    place: usize,
-) {
-    for direction in 0..N {
-        for side in [-1, 1] {
-            stencil.neighbour(place, direction, side).map(|at| black_box(stencil.is_open(at)));
-            stencil.neighbour(place, direction, 2 * side).map(|at| black_box(values[at]));
-        }
-    }
-}
 
 impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     pub(super) fn new(stencil: &'a S, seeds: &'a [Seed<D>], order: Order, width: f64) -> Self {
@@ -101,14 +83,8 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
     fn pop(&mut self) -> Option<Entry> {
         let values = &self.values;
         let stencil = self.stencil;
-        self.queue.pop(|place| {
-            let place = place as usize;
-            let trial = values[place].as_trial()?;
-            if D > 2 && N == D {
-                read_around(stencil, values, place);
-            }
-            Some(trial)
-        })
+        let distance = |place| values[place as usize].as_trial();
+        self.queue.pop(distance, |place| stencil.prefetch_around(place as usize, values))
     }
 
     /// The distance of the cell at a place, infinite if it is not known.
@@ -129,12 +105,13 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         if D == 2 && N == D && self.seeds.len() == 1 && self.second_order {
             return self.spread_in_pairs(place, distance);
         }
-        stencil.for_dependents(place, |cell, index, opposite| {
-            let is_nearest = opposite.is_none_or(|opposite| distance < self.distance(opposite));
-            if is_nearest && !self.values[cell].is_known() {
-                let (trial, nearest) = self.update(cell, index);
+        stencil.for_dependents(place, |cell| {
+            let is_nearest = cell.opposite.is_none_or(|place| distance < self.distance(place));
+            if is_nearest && !self.values[cell.place].is_known() {
+                let first = if N == D { self.first_distance(&cell) } else { None };
+                let (trial, nearest) = first.unwrap_or_else(|| self.update(cell.place, cell.index));
                 // No cell may come nearer than one that is known already.
-                self.offer(cell, trial.max(distance), nearest);
+                self.offer(cell.place, trial.max(distance), nearest);
             }
         });
     }
@@ -146,10 +123,10 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         // At most four stay; one more may be written behind them.
         let mut cells = [(0, [0; D]); 8];
         let mut count = 0;
-        self.stencil.for_dependents(place, |cell, index, opposite| {
-            let is_nearest = opposite.is_none_or(|opposite| distance < self.distance(opposite));
-            cells[count % 8] = (cell, index);
-            count += usize::from(is_nearest & !self.values[cell].is_known());
+        self.stencil.for_dependents(place, |cell| {
+            let is_nearest = cell.opposite.is_none_or(|place| distance < self.distance(place));
+            cells[count % 8] = (cell.place, cell.index);
+            count += usize::from(is_nearest & !self.values[cell.place].is_known());
         });
         for at in (0..count).step_by(2) {
             let two = [cells[at], cells[(at + 1).min(count - 1)]];
@@ -172,6 +149,18 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             }
             self.queue.push(Entry { distance, place: place as u32 });
         }
+    }
+
+    /// The same along the axes for a cell that only the one neighbour is known of so far, without a look
+    /// at the others.
+    #[inline(always)]
+    fn first_distance(&self, cell: &Dependent<D>) -> Option<(f64, u32)> {
+        let &Dependent { place, index, direction, .. } = cell;
+        let direction = direction.filter(|_| self.values[place] == Value::FAR)?;
+        let upwind = self.upwind(place, direction);
+        let factor = Factor::new(self.stencil, &self.seeds[upwind.seed as usize], place, index);
+        let distance = factor.solve_with_one(direction, &upwind, self.second_order)?;
+        self.is_plausible(distance, place, direction, &upwind).then_some((distance, upwind.seed))
     }
 
     /// The distance of a cell from its known neighbours, and the seed that it counts from: the least
@@ -221,9 +210,7 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         let factor = Factor::new(self.stencil, &self.seeds[seed as usize], place, index);
         let is_plausible = |distance: &f64| {
             upwinds.iter().enumerate().fold(true, |is_plausible, (direction, upwind)| {
-                let step = (distance - upwind.near).max(0.0);
-                let weight = self.stencil.weight(place, direction);
-                is_plausible & (weight * step * step <= LARGEST_STEP_SQ)
+                is_plausible & self.is_plausible(*distance, place, direction, upwind)
             })
         };
         (if self.second_order { factor.solve(upwinds, true) } else { None })
@@ -231,6 +218,13 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             .or_else(|| factor.solve(upwinds, false).filter(is_plausible))
             .or_else(|| self.solve_plainly(place, upwinds))
             .unwrap_or(f64::INFINITY)
+    }
+
+    /// Whether the step from a neighbour costs what it may.
+    #[inline(always)]
+    fn is_plausible(&self, distance: f64, place: usize, direction: usize, upwind: &Upwind) -> bool {
+        let step = (distance - upwind.near).max(0.0);
+        self.stencil.weight(place, direction) * step * step <= LARGEST_STEP_SQ
     }
 
     /// The known neighbours of a cell in one direction, on the nearer side. Those of both sides are

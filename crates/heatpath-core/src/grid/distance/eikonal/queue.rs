@@ -75,6 +75,9 @@ pub(super) struct Queue {
 /// The number of slots from one horizon to the next.
 const SLOTS: u64 = 4096;
 
+/// How many entries are announced before they are popped.
+const AHEAD: usize = 8;
+
 /// The number of the last slot there is.
 const LAST: u64 = 1 << 62;
 
@@ -109,15 +112,29 @@ impl Queue {
     }
 
     /// The nearest entry. `distance` is asked, when a slot opens, for what the cell at a place has been
-    /// pushed with last; `None` if it need not be popped any more.
+    /// pushed with last; `None` if it need not be popped any more. `announce` is told most places a few
+    /// entries before they are popped.
     #[inline]
-    pub(super) fn pop(&mut self, distance: impl Fn(u32) -> Option<f64>) -> Option<Entry> {
+    pub(super) fn pop(
+        &mut self,
+        distance: impl Fn(u32) -> Option<f64>,
+        announce: impl Fn(u32),
+    ) -> Option<Entry> {
         loop {
             match (self.current.last(), self.late.peek()) {
                 (Some(sorted), Some(late)) if late > sorted => return self.late.pop(),
-                (Some(_), _) => return self.current.pop(),
+                (Some(_), _) => {
+                    let entry = self.current.pop();
+                    if let Some(coming) = self.current.iter().nth_back(AHEAD - 1) {
+                        announce(coming.place);
+                    }
+                    return entry;
+                }
                 (None, Some(_)) => return self.late.pop(),
-                (None, None) => self.advance(&distance)?,
+                (None, None) => {
+                    self.advance(&distance)?;
+                    self.current.iter().rev().take(AHEAD).for_each(|first| announce(first.place));
+                }
             }
         }
     }
@@ -151,6 +168,7 @@ impl Queue {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::RefCell;
 
     #[test]
     fn entries_come_out_in_order() {
@@ -160,7 +178,7 @@ mod tests {
             queue.push(Entry { distance: 0.0, place: 0 });
             for number in 1..5000_u32 {
                 let known = |place| Some(distances[place as usize]);
-                let Entry { distance, place } = queue.pop(known).unwrap();
+                let Entry { distance, place } = queue.pop(known, |_| ()).unwrap();
                 assert!(last <= (distance, place), "{last:?} and then {distance} at {place}");
                 last = (distance, place);
                 for more in 1..3 {
@@ -182,21 +200,38 @@ mod tests {
         distances[0] = 2.0;
         queue.push(Entry { distance: 2.0, place: 0 });
         let popped: Vec<(f64, u32)> =
-            std::iter::from_fn(|| queue.pop(|place| Some(distances[place as usize])))
+            std::iter::from_fn(|| queue.pop(|place| Some(distances[place as usize]), |_| ()))
                 .map(|entry| (entry.distance, entry.place))
                 .collect();
         assert_eq!(popped, [(2.0, 0), (2.0, 0), (3.0, 1)]);
     }
 
     #[test]
+    fn places_are_announced_before_they_are_popped() {
+        let mut queue = Queue::new(1.0);
+        let distances: Vec<f64> = (0..30).map(|number| 3.0 + f64::from(number) / 31.0).collect();
+        for (place, &distance) in (0..).zip(&distances) {
+            queue.push(Entry { distance, place });
+        }
+        let announced = RefCell::new(Vec::new());
+        for popped in 0..30 {
+            let distance = |place| Some(distances[place as usize]);
+            let entry = queue.pop(distance, |place| announced.borrow_mut().push(place)).unwrap();
+            assert_eq!(entry.place, popped);
+            let told = (popped + 1 + AHEAD as u32).min(30);
+            assert_eq!(*announced.borrow(), (0..told).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
     fn an_empty_queue_says_so() {
         let mut queue = Queue::new(1.0);
-        assert!(queue.pop(|_| Some(0.0)).is_none());
+        assert!(queue.pop(|_| Some(0.0), |_| ()).is_none());
         queue.push(Entry { distance: f64::MAX, place: 3 });
-        assert_eq!(queue.pop(|_| Some(f64::MAX)).map(|entry| entry.place), Some(3));
-        assert!(queue.pop(|_| Some(0.0)).is_none());
+        assert_eq!(queue.pop(|_| Some(f64::MAX), |_| ()).map(|entry| entry.place), Some(3));
+        assert!(queue.pop(|_| Some(0.0), |_| ()).is_none());
         let mut queue = Queue::new(1.0);
         queue.push(Entry { distance: 5.0, place: 2 });
-        assert!(queue.pop(|_| None).is_none(), "a cell that need not be popped");
+        assert!(queue.pop(|_| None, |_| ()).is_none(), "a cell that need not be popped");
     }
 }

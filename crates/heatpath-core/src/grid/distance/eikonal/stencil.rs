@@ -1,6 +1,19 @@
 //! Which neighbours a cell's distance comes from.
 
+use super::value::Value;
 use crate::grid::Matrix;
+
+/// A cell whose equation holds another.
+#[derive(Clone, Copy)]
+pub(super) struct Dependent<const D: usize> {
+    pub(super) place: usize,
+    pub(super) index: [usize; D],
+    /// The direction that leads from it to the other, or back; `None` if it is along an axis, past a
+    /// closed side.
+    pub(super) direction: Option<usize>,
+    /// The place opposite of the other.
+    pub(super) opposite: Option<usize>,
+}
 
 /// The discrete eikonal equation: in every cell the weighted squares of derivatives along some
 /// directions add up to 1.
@@ -60,7 +73,9 @@ pub(super) trait Stencil<const D: usize, const N: usize> {
     /// The squared length of a step along a direction in a metric.
     fn length_sq(&self, place: usize, direction: usize, metric: &Matrix<D>) -> f64;
 
-    /// Calls `visit` with the place of each cell whose equation holds the cell at a place, with its
-    /// index, and with the place of the cell opposite of it there.
-    fn for_dependents(&self, place: usize, visit: impl FnMut(usize, [usize; D], Option<usize>));
+    /// Calls `visit` with each cell whose equation holds the cell at a place.
+    fn for_dependents(&self, place: usize, visit: impl FnMut(Dependent<D>));
+
+    /// Has fetched what will be needed of these cells as soon as the one at a place is known.
+    fn prefetch_around(&self, place: usize, values: &[Value]);
 }
