@@ -151,18 +151,6 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
         }
     }
 
-    /// The same along the axes for a cell that only the one neighbour is known of so far, without a look
-    /// at the others.
-    #[inline(always)]
-    fn first_distance(&self, cell: &Dependent<D>) -> Option<(f64, u32)> {
-        let &Dependent { place, index, direction, .. } = cell;
-        let direction = direction.filter(|_| self.values[place] == Value::FAR)?;
-        let upwind = self.upwind(place, direction);
-        let factor = Factor::new(self.stencil, &self.seeds[upwind.seed as usize], place, index);
-        let distance = factor.solve_with_one(direction, &upwind, self.second_order)?;
-        self.is_plausible(distance, place, direction, &upwind).then_some((distance, upwind.seed))
-    }
-
     /// The distance of a cell from its known neighbours, and the seed that it counts from: the least
     /// over the seeds that its neighbours count from.
     #[inline]
@@ -180,6 +168,18 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             Some((distance, other)) if distance < best.0 => (distance, self.nearest(other)),
             _ => best,
         }
+    }
+
+    /// The same along the axes for a cell without a distance so far: only the one neighbour of it is known,
+    /// and no other is looked at. `None` for other cells, and where more is to be considered.
+    #[inline(always)]
+    fn first_distance(&self, cell: &Dependent<D>) -> Option<(f64, u32)> {
+        let &Dependent { place, index, direction, .. } = cell;
+        let direction = direction.filter(|_| self.values[place] == Value::FAR)?;
+        let upwind = self.upwind(place, direction);
+        let factor = Factor::new(self.stencil, &self.seeds[upwind.seed as usize], place, index);
+        let distance = factor.solve_with_one(direction, &upwind, self.second_order)?;
+        self.is_plausible(distance, place, direction, &upwind).then_some((distance, upwind.seed))
     }
 
     fn least_over_seeds(
