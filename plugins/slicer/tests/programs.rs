@@ -113,6 +113,12 @@ fn trees_are_those_of_the_command() {
         "heatpath vote %volume.nrrd -o @t.vtp --density @n.npy --physical --medium vesselness \
          --scale 1.5,2 --polarity bright --prune 3 --quiet",
     );
+    agree(
+        "HeatpathVesselTree",
+        "%volume.nrrd @t.vtp --scaleChoice auto --polarity bright",
+        "heatpath vote %volume.nrrd -o @t.vtp --physical --medium vesselness --scale auto \
+         --polarity bright --quiet",
+    );
 }
 
 #[test]
@@ -134,6 +140,20 @@ fn a_failure_is_one_line() {
         (&["--source", "1,2"], 2, "--source 1,2: has 2 numbers, but the input is a volume"),
         (&[], 2, "the following required arguments were not provided: <--source <X,Y[,Z]>"),
         (&["--source", "1,2,3", "--power", "much"], 2, "invalid value 'much' for '--power <N>'"),
+        (
+            &[
+                "--source",
+                "1,2,3",
+                "--medium",
+                "vesselness",
+                "--scale",
+                "2",
+                "--scaleChoice",
+                "auto",
+            ],
+            2,
+            "--scale: `auto` stands alone",
+        ),
         (&["--bogus"], 2, "unexpected argument '--bogus' found"),
     ] {
         let output =

@@ -52,6 +52,15 @@ pub(super) const SCALE: Parameter = Parameter {
     kind: Kind::Numbers,
 };
 
+pub(super) const SCALE_CHOICE: Parameter = Parameter {
+    name: "scaleChoice",
+    label: "Choice of half widths",
+    description: "given: those above; auto: one to three, from the tubes of the volume itself (vesselness \
+                  only)",
+    option: "--scale",
+    kind: Kind::Choice { among: &["given", "auto"] },
+};
+
 pub(super) const CONTRAST: Parameter = Parameter {
     name: "contrast",
     label: "Contrast",
@@ -121,6 +130,7 @@ pub(super) const MEDIUM: Group = Group {
         RANGE,
         POLARITY,
         SCALE,
+        SCALE_CHOICE,
     ],
 };
 

@@ -1,7 +1,8 @@
 //! Trees of vessels.
 
 use super::shared::{
-    ANISOTROPY, CONTRAST, INPUT_VOLUME, MASK, POLARITY, RANGE, SCALE, SOURCE, SOURCES_FILE, THREADS,
+    ANISOTROPY, CONTRAST, INPUT_VOLUME, MASK, POLARITY, RANGE, SCALE, SCALE_CHOICE, SOURCE,
+    SOURCES_FILE, THREADS,
 };
 use crate::module::{Channel, FileKind, Group, Kind, Module, Parameter};
 
@@ -41,7 +42,11 @@ pub const VESSEL_TREE: Module = Module {
                 },
             ],
         },
-        Group { label: "Vessels", advanced: false, parameters: &[POLARITY, SCALE, RANGE, PRUNE] },
+        Group {
+            label: "Vessels",
+            advanced: false,
+            parameters: &[POLARITY, SCALE, SCALE_CHOICE, RANGE, PRUNE],
+        },
         Group {
             label: "Details",
             advanced: true,
