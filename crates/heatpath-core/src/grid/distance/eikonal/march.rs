@@ -109,6 +109,9 @@ impl<'a, const D: usize, const N: usize, S: Stencil<D, N>> Front<'a, D, N, S> {
             let is_nearest = cell.opposite.is_none_or(|place| distance < self.distance(place));
             if is_nearest && !self.values[cell.place].is_known() {
                 let first = if N == D { self.first_distance(&cell) } else { None };
+                debug_assert!(
+                    first.is_none_or(|first| first == self.update(cell.place, cell.index))
+                );
                 let (trial, nearest) = first.unwrap_or_else(|| self.update(cell.place, cell.index));
                 // No cell may come nearer than one that is known already.
                 self.offer(cell.place, trial.max(distance), nearest);
