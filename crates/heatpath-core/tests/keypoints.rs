@@ -15,8 +15,8 @@ use heatpath_core::grid::medium::{self, Medium, VesselnessOptions};
 use heatpath_core::grid::path::Ending;
 use heatpath_core::grid::{Mask, PointError, Shape, Sources};
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
-use support::curves::{Curve, curve, distance, draw, random_tree, score, segment, tree};
+use std::ops::{ControlFlow, Range};
+use support::curves::{Curve, Score, curve, distance, draw, random_tree, score, segment, tree};
 use support::random;
 
 fn options(radius: f64) -> KeyPointOptions {
@@ -123,31 +123,51 @@ fn all_branches_of_a_tree_are_found() {
     assert_found("tree", &tree, [150.0, 285.0], 15.0, (0, 5.0));
 }
 
+/// What is found of generated trees in both media. (Circles are 3 times as wide as the trunk, at least.)
+fn scores_of_trees(trees: &[(usize, Range<u64>)]) -> impl Iterator<Item = (String, Score<2>)> {
+    let numbered = trees.iter().flat_map(|(side, numbers)| numbers.clone().map(|n| (*side, n)));
+    numbered.flat_map(|(side, number)| {
+        let mut random = random(number);
+        let half_width = 2.5 + 2.5 * random();
+        let tree = random_tree(side as f64, half_width, &mut random);
+        let seed = [0.5 * side as f64, 0.96 * side as f64 - 1.0];
+        let media = media(Shape::new([side, side]).unwrap(), &tree);
+        ["conductivity", "vesselness"].into_iter().zip(media).map(move |(kind, medium)| {
+            let found = find(&medium, &[seed], &options(15.0));
+            (format!("{side}, tree {number}, {kind}"), score(&found, &tree))
+        })
+    })
+}
+
 /// A gap is a stretch of a centreline, from where its branch leaves that of its parent to its tip, that
 /// is more than 2 pixels away from every link. None is longer than 3 pixels: ends of thin branches.
-/// (Circles are 3 times as wide as the trunk, at least.)
 #[test]
 fn no_gap_remains_on_generated_trees() {
-    for (side, numbers) in [(300_usize, 1..7_u64), (450, 7..11), (700, 11..13), (1000, 13..14)] {
-        for number in numbers {
-            let mut random = random(number);
-            let half_width = 2.5 + 2.5 * random();
-            let tree = random_tree(side as f64, half_width, &mut random);
-            let shape = Shape::new([side, side]).unwrap();
-            let seed = [0.5 * side as f64, 0.96 * side as f64 - 1.0];
-            for (medium, kind) in media(shape, &tree).iter().zip(["conductivity", "vesselness"]) {
-                let score = score(&find(medium, &[seed], &options(15.0)), &tree);
-                println!("{side}, tree {number}, {kind}: {score:.3?}");
-                assert!(score.recall > 0.985 && score.precision > 0.98 && score.mean < 0.3);
-                assert!(score.gap <= 3.0 || kind == "vesselness" && BROKEN.contains(&number));
-            }
-        }
+    let trees = [(300, 1..7), (450, 7..11), (700, 11..13), (1000, 13..14)];
+    for (name, score) in scores_of_trees(&trees) {
+        println!("{name}: {score:.3?}");
+        assert!(score.recall > 0.985 && score.precision > 0.98 && score.mean < 0.3);
+        assert!(score.gap <= 3.0 || BROKEN.contains(&name.as_str()));
     }
 }
 
 /// Trees of which branches cross, or end in others, where vesselness has holes; what is beyond one is too
 /// short to be told from noise.
-const BROKEN: [u64; 3] = [1, 11, 12];
+const BROKEN: [&str; 2] = ["300, tree 1, vesselness", "700, tree 12, vesselness"];
+
+/// Where three branches meet within a few pixels, one side of the triangle may be left out, and so may a tip
+/// beside another branch.
+#[test]
+fn gaps_of_further_trees_are_shorter_than_a_circle() {
+    let mut with_gap = 0;
+    for (name, score) in scores_of_trees(&[(300, 20..30), (450, 40..50), (700, 60..65)]) {
+        println!("{name}: {score:.3?}");
+        assert!(score.recall > 0.98 && score.precision > 0.98 && score.mean < 0.35);
+        assert!(score.gap < 12.0);
+        with_gap += usize::from(score.gap > 3.0);
+    }
+    assert!(with_gap <= 9, "{with_gap} of 50");
+}
 
 /// A fifth of the temperature is lost over a seventh of a cell.
 #[test]

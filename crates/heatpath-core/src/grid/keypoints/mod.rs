@@ -189,9 +189,9 @@ impl<const D: usize> KeyPoints<D> {
 ///   joined.
 /// - *Missed branches.* Once no circle has a new peak, those that were left out because they lie in an
 ///   earlier region or beside another key point are looked at again: where no path passes by, they
-///   are key points after all. So are peaks beyond a hole of two cells at most, such as vesselness often
-///   has at forks, if the structure goes on beyond it for half a radius and is a third as strong there as that of
-///   any other peak.
+///   are key points after all. So are peaks beyond a hole of two cells at most, or of four on a straight
+///   way, such as vesselness often has at forks and crossings, if the structure goes on beyond it for
+///   half a radius and is a third as strong there as that of any other peak.
 /// - *Joints.* Heat, and the path with it, takes the shortest way around the corner between a branch and
 ///   the tube that it leaves. The path of a branch goes straight on instead, as it came, from the mouth of
 ///   the branch to the curve in that tube, and then along it to the parent.

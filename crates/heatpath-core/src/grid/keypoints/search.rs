@@ -57,6 +57,19 @@ pub(super) const APART: f64 = 5.0;
 /// to another 7 cells beside it.
 const HOLE: f64 = 2.0;
 
+/// And this long if the path is straight.
+const STRAIGHT_HOLE: f64 = 4.0;
+
+/// A path is straight whose ends are at least this part of its length apart. From one line to another
+/// 7 cells beside it 0.91 are.
+const STRAIGHT: f64 = 0.95;
+
+/// How far apart points straight on are, in cells.
+pub(super) const STRAIGHT_STEP: f64 = 0.5;
+
+/// The direction of a branch is that of its last cells, as many.
+pub(super) const STRETCH: f64 = 6.0;
+
 /// The least strength beyond a hole, as part of that of any other branch. At forks of generated trees it
 /// is 0.5 or more, of the edge of a shadow beside a catheter 0.2.
 const WEAKEST: f64 = 1.0 / 3.0;
@@ -182,10 +195,11 @@ impl<'a, const D: usize> Search<'a, D> {
         points.iter().all(|&point| self.is_inside(point))
     }
 
-    /// Whether a path crosses small holes only of the structure, such as vesselness has at a fork, and
-    /// runs inside of it for half a radius before them.
+    /// Whether a path crosses small holes only of the structure, such as vesselness has at forks and
+    /// crossings, and the structure goes on for half a radius beyond them: on the path, or, if that is
+    /// straight, beyond the circle too.
     fn jumps_a_hole(&self, points: &[[f64; D]]) -> bool {
-        let (mut first, mut hole) = (f64::INFINITY, 0.0);
+        let (mut first, mut hole, mut longest) = (f64::INFINITY, 0.0, 0.0_f64);
         let mut length = 0.0;
         for pair in points.windows(2) {
             let step = self.apart(pair[0], pair[1]);
@@ -194,22 +208,47 @@ impl<'a, const D: usize> Search<'a, D> {
             } else {
                 first = first.min(length);
                 hole += step;
-            }
-            if hole > HOLE {
-                return false;
+                longest = longest.max(hole);
             }
             length += step;
         }
-        first >= 0.5 * self.options.radius
+        let needed = 0.5 * self.options.radius - first;
+        let is_straight = self.apart(points[0], points[points.len() - 1]) >= STRAIGHT * length;
+        if is_straight {
+            let steps = (needed / STRAIGHT_STEP).ceil().max(0.0) as usize;
+            longest <= STRAIGHT_HOLE && self.straight_on(points).take(steps).count() == steps
+        } else {
+            longest <= HOLE && needed <= 0.0
+        }
     }
 
     /// How strong a structure is at its end: the mean squared speed on the last half radius of the
     /// path to it.
     fn strength(&self, points: &[[f64; D]]) -> f64 {
-        let end = points[0];
-        let is_last = |&&point: &&[f64; D]| self.apart(point, end) <= 0.5 * self.options.radius;
-        let count = points.iter().take_while(is_last).count();
-        points[..count].iter().map(|&point| self.speed_sq(point)).sum::<f64>() / count as f64
+        let last = self.within(points, 0.5 * self.options.radius);
+        last.iter().map(|&point| self.speed_sq(point)).sum::<f64>() / last.len() as f64
+    }
+
+    /// The first points of a path, which are no further than some cells from where it begins.
+    pub(super) fn within<'p>(&self, points: &'p [[f64; D]], cells: f64) -> &'p [[f64; D]] {
+        let is_far = |&point: &[f64; D]| self.apart(point, points[0]) > cells;
+        &points[..points.iter().position(is_far).unwrap_or(points.len())]
+    }
+
+    /// The points straight on from where a path begins, as far as the structure goes.
+    pub(super) fn straight_on(&self, points: &[[f64; D]]) -> impl Iterator<Item = [f64; D]> {
+        let last = self.within(points, STRETCH);
+        let (end, far) = (points[0], last[last.len() - 1]);
+        let part = STRAIGHT_STEP / self.apart(far, end);
+        let step: [f64; D] = std::array::from_fn(|axis| part * (end[axis] - far[axis]));
+        let next = move |here: &[f64; D]| {
+            let next = std::array::from_fn(|axis| here[axis] + step[axis]);
+            let goes_on = self.medium.shape().contains(next)
+                && self.medium.mask().segment_is_open(*here, next)
+                && self.is_inside(next);
+            goes_on.then_some(next)
+        };
+        std::iter::successors(Some(end), next).skip(1)
     }
 
     pub(super) fn is_inside(&self, point: [f64; D]) -> bool {
